@@ -1,0 +1,22 @@
+#pragma once
+/// The engine's door.
+
+#include "qmorph/error.hpp"
+#include "qmorph/options.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph {
+
+/// Turns the triangles of a planar surface into quads (Q-Morph, Owen et al. 1999).
+///
+/// Guarantees, for every region (triangles joined through edges that are no constraints): every boundary edge and
+/// constraint edge of the input is an edge of the result, no fixed node moves, the orientation is the input's,
+/// every corner of every element is strictly convex, and no triangle is left where the number of
+/// boundary sides is even, exactly one where it is odd. The result depends on the arguments alone.
+///
+/// \throws SurfaceError if the surface is not planar, not a manifold, not oriented consistently, overlaps itself,
+///         has a NaN coordinate, or cannot be converted without a bad element. The message says where.
+/// Cost: linear in the number of triangles.
+QuadMesh convert(const Patch& patch, const Options& options = {});
+
+}  // namespace qmorph
