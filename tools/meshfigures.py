@@ -6,8 +6,11 @@ Needs Debian's python3-gmsh and python3-numpy.
 import os
 import sys
 
-import gmsh
-import numpy as np
+try:
+    import gmsh
+    import numpy as np
+except ImportError as missing:
+    sys.exit(f"{missing}; tools/setup --scripts installs it")
 
 # Gmsh element types by number of corners, with the nodes per element: only the corners are looked at.
 TRIANGLES = {2: 3, 9: 6, 21: 10, 20: 9}
@@ -102,11 +105,16 @@ class Mesh:
         jacobians = np.concatenate([s.quad_jacobians for s in surfaces] or [np.zeros(0)])
         valence = np.concatenate([s.valence for s in surfaces] or [np.zeros(0)])
         triangles = sum(len(s.triangles) for s in surfaces)
+        # A line element on a surface that is no edge of its elements: elements were merged across it.
+        nodes = [set(np.unique(s.edges)) for s in surfaces]
+        edges = set(map(tuple, np.concatenate([s.edges for s in surfaces]).tolist())) if surfaces else set()
+        lost = sum(1 for a, b in np.sort(self.lines, axis=1).tolist()
+                   if (a, b) not in edges and any(a in n and b in n for n in nodes))
         inverted = int((jacobians <= 0).sum()) + sum(int((s.triangle_jacobians <= 0).sum()) for s in surfaces)
-        return {"quads": len(jacobians), "triangles": triangles, "inverted": inverted,
+        return {"quads": len(jacobians), "triangles": triangles, "inverted": inverted, "lines_lost": lost,
                 "sj_min": float(jacobians.min()) if len(jacobians) else float("nan"),
                 "sj_mean": float(jacobians.mean()) if len(jacobians) else float("nan"),
-                "irregular": float((valence != 4).mean()) if len(valence) else 0.0}
+                "interior": len(valence), "irregular": float((valence != 4).mean()) if len(valence) else 0.0}
 
 
 def element_edges(elements):
