@@ -1,14 +1,136 @@
 #include "qmorph/convert.hpp"
 
-namespace qmorph {
+#include <chrono>
 
-QuadMesh convert(const Patch& patch, const Options&) {
-  QuadMesh mesh;  // placeholder until the engine is in: the input as it is
-  mesh.points = patch.points;
-  mesh.source.resize(patch.points.size());
-  for (Index i = 0; i < mesh.source.size(); ++i) mesh.source[i] = i;
-  mesh.triangles = patch.triangles;
-  mesh.quads = patch.quads;
+#include "engine/regions.hpp"
+#include "front/morph.hpp"
+#include "kernel/mesh.hpp"
+
+namespace qmorph {
+namespace {
+
+class Stopwatch {
+ public:
+  /// Seconds since construction or the last lap.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Puts the regions of one patch together again.
+class Collector {
+ public:
+  Collector(const Patch& patch, const Plane& plane, const std::vector<Vec2>& plane_points)
+      : patch_(patch), plane_(plane), plane_points_(plane_points),
+        row_(patch.points.size(), kNone), used_(patch.points.size(), false) {
+    for (const auto& q : patch.quads)
+      for (Index v : q) used_[v] = true;
+  }
+
+  void add(const Region& region, kernel::Mesh mesh) {
+    for (Index v = 0; v < region.node.size(); ++v)
+      if (mesh.is_live_vertex(v)) used_[region.node[v]] = true;
+    parts_.emplace_back(&region, std::move(mesh));
+  }
+
+  QuadMesh finish() {
+    for (Index i = 0; i < patch_.points.size(); ++i)
+      if (used_[i]) row_[i] = append(patch_.points[i], i);
+    for (const auto& q : patch_.quads)
+      result_.quads.push_back({row_[q[0]], row_[q[1]], row_[q[2]], row_[q[3]]});
+    for (const auto& [region, mesh] : parts_) add_elements(*region, mesh);
+    return std::move(result_);
+  }
+
+ private:
+  Index append(const Eigen::Vector3d& p, Index source) {
+    result_.points.push_back(p);
+    result_.source.push_back(source);
+    return Index(result_.points.size() - 1);
+  }
+
+  void add_elements(const Region& region, const kernel::Mesh& mesh) {
+    std::vector<Index> row(mesh.vertex_slots(), kNone);
+    for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+      if (!mesh.is_live_vertex(v)) continue;
+      if (v < region.node.size()) {
+        const Index node = region.node[v];
+        row[v] = row_[node];
+        // A node that did not move keeps its coordinates to the bit.
+        if (mesh.point(v) != plane_points_[node])
+          result_.points[row[v]] = plane_.to_space(mesh.point(v));
+      } else {
+        row[v] = append(plane_.to_space(mesh.point(v)), kNone);
+      }
+    }
+    for (Index f = 0; f < mesh.face_slots(); ++f) {
+      if (!mesh.is_live_face(f)) continue;
+      const Index h = mesh.half_edge(f);
+      const Index a = mesh.origin(h), b = mesh.target(h), c = mesh.target(mesh.next(h));
+      if (mesh.degree(f) == 3)
+        result_.triangles.push_back({row[a], row[b], row[c]});
+      else
+        result_.quads.push_back({row[a], row[b], row[c], row[mesh.origin(mesh.prev(h))]});
+    }
+  }
+
+  const Patch& patch_;
+  const Plane& plane_;
+  const std::vector<Vec2>& plane_points_;
+  std::vector<Index> row_;
+  std::vector<bool> used_;
+  std::vector<std::pair<const Region*, kernel::Mesh>> parts_;
+  QuadMesh result_;
+};
+
+std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {
+  std::size_t count = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    count += mesh.is_live_face(f) && mesh.degree(f) == degree;
+  return count;
+}
+
+kernel::Mesh convert_region(const Region& region, const Options& options, ConversionStats& stats) {
+  Stopwatch watch;
+  kernel::Mesh mesh(region.points, region.triangles);
+  for (Index v : region.fixed) mesh.set_fixed(v);
+  front::morph(mesh, options.front, options.check_each_step, [&](double share) {
+    if (options.progress) options.progress("front", share);
+  });
+  stats.front_quads += count_faces(mesh, 4);
+  stats.leftover_triangles += count_faces(mesh, 3);
+  stats.front_seconds += watch.lap();
+  return mesh;
+}
+
+}  // namespace
+
+QuadMesh convert(const Patch& patch, const Options& options) {
+  if (patch.triangles.empty()) {
+    Collector nothing(patch, {}, {});
+    return nothing.finish();
+  }
+  const Plane plane = fit_plane(patch);
+  std::vector<Vec2> plane_points;
+  plane_points.reserve(patch.points.size());
+  for (const auto& p : patch.points) plane_points.push_back(plane.to_plane(p));
+  const std::vector<Region> regions = cut_into_regions(patch, plane_points);
+
+  ConversionStats stats;
+  Collector collector(patch, plane, plane_points);
+  for (const Region& region : regions) {
+    ++stats.regions;
+    stats.odd_regions += region.boundary_sides % 2;
+    collector.add(region, convert_region(region, options, stats));
+  }
+  QuadMesh mesh = collector.finish();
+  mesh.stats = stats;
   return mesh;
 }
 

@@ -1,0 +1,89 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <sstream>
+
+#include "engine/regions.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph {
+namespace {
+
+/// A surface is planar if no node is farther from its plane than this times its size. Large enough for
+/// coordinates written with seven digits, small enough that the sagitta of real curvature shows.
+constexpr double kPlanarTolerance = 1e-6;
+
+using Eigen::Vector3d;
+
+void require_finite(const Patch& patch) {
+  for (std::size_t i = 0; i < patch.points.size(); ++i)
+    if (!patch.points[i].allFinite())
+      throw SurfaceError("node " + std::to_string(i) + " has the coordinates " +
+                         describe(patch.points[i]) + "; repair the input");
+}
+
+Vector3d area_vector(const Patch& patch) {
+  Vector3d sum = Vector3d::Zero();
+  for (const auto& t : patch.triangles) {
+    const Vector3d& a = patch.points[t[0]];
+    sum += (patch.points[t[1]] - a).cross(patch.points[t[2]] - a);
+  }
+  return sum;
+}
+
+/// Axes of the plane with this normal. A coordinate plane gives coordinate axes, so that going there and
+/// back changes no bit.
+Plane axes_for(const Vector3d& normal) {
+  Plane plane;
+  Eigen::Index dominant = 0;
+  normal.cwiseAbs().maxCoeff(&dominant);
+  const double sign = normal[dominant] > 0 ? 1 : -1;
+  Vector3d u = Vector3d::Unit((dominant + 1) % 3), v = Vector3d::Unit((dominant + 2) % 3);
+  if (sign < 0) std::swap(u, v);
+  const Vector3d unit = sign * Vector3d::Unit(dominant);
+  if ((normal.normalized() - unit).norm() > 1e-15) {
+    u = (u - u.dot(normal) / normal.squaredNorm() * normal).normalized();
+    v = normal.cross(u).normalized();
+  }
+  plane.axis_u = u;
+  plane.axis_v = v;
+  return plane;
+}
+
+}  // namespace
+
+std::string describe(const Vector3d& p) {
+  std::ostringstream text;
+  text.precision(6);
+  text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
+  return text.str();
+}
+
+Plane fit_plane(const Patch& patch) {
+  require_finite(patch);
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& t : patch.triangles)
+    for (Index v : t) low = low.cwiseMin(patch.points[v]), high = high.cwiseMax(patch.points[v]);
+  const double size = (high - low).norm();
+  Vector3d normal = area_vector(patch);
+  if (!(normal.norm() > 0))
+    throw SurfaceError("its triangles have no area in sum, near " + describe(low) +
+                       "; the surface is closed, folded or degenerate");
+  // Noise out of the plane must not tilt a coordinate plane.
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(normal[i]) < 1e-12 * normal.norm()) normal[i] = 0;
+  Plane plane = axes_for(normal);
+  const Vector3d unit = normal.normalized();
+  // The origin lies in the plane, and is kept at zero along the axes of a coordinate plane.
+  const bool tilted = (plane.axis_u.cwiseAbs().maxCoeff() < 1) || (plane.axis_v.cwiseAbs().maxCoeff() < 1);
+  const Vector3d& first = patch.points[patch.triangles[0][0]];
+  plane.origin = tilted ? first : Vector3d(first.dot(unit) * unit);
+
+  for (const auto& t : patch.triangles)
+    for (Index v : t)
+      if (std::abs((patch.points[v] - first).dot(unit)) > kPlanarTolerance * size)
+        throw SurfaceError("not planar: the node at " + describe(patch.points[v]) +
+                           " lies outside the plane of the rest; curved surfaces are not supported yet");
+  return plane;
+}
+
+}  // namespace qmorph

@@ -1,0 +1,45 @@
+#pragma once
+/// A surface, laid into its plane and cut along its constraints.
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "geometry/vec2.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph {
+
+/// The plane of a surface: u runs along `axis_u`, v along `axis_v`, their cross product is the normal that
+/// the elements follow.
+struct Plane {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d normal() const { return axis_u.cross(axis_v); }
+  Vec2 to_plane(const Eigen::Vector3d& p) const {
+    return {(p - origin).dot(axis_u), (p - origin).dot(axis_v)};
+  }
+  Eigen::Vector3d to_space(const Vec2& p) const { return origin + p.x() * axis_u + p.y() * axis_v; }
+};
+
+/// Plane of the patch. Throws SurfaceError if a coordinate is not finite or the patch is not planar.
+Plane fit_plane(const Patch& patch);
+
+/// Triangles that are joined through edges that are no constraints, as a manifold with boundary: a node at which
+/// several fans of triangles meet (a slit, a pinched boundary) becomes one vertex for each fan, so that
+/// constraints need no care afterwards. They are boundary, and boundary never moves.
+struct Region {
+  std::vector<Vec2> points;
+  std::vector<Index> node;  ///< row of Patch::points of each vertex
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<Index> fixed;  ///< vertices to keep in place that may be inside
+  std::size_t boundary_sides = 0;
+};
+
+/// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
+std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
+
+/// "(x, y, z)" for messages.
+std::string describe(const Eigen::Vector3d& p);
+
+}  // namespace qmorph

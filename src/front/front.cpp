@@ -1,0 +1,87 @@
+#include "front/front.hpp"
+
+#include <numbers>
+
+namespace qmorph::front {
+
+Front::Front(const Mesh& mesh, const FrontOptions& options)
+    : mesh_(mesh), options_(options), corner_cosine_(std::cos(options.corner_angle)) {}
+
+Index Front::next(Index h) const {
+  Index e = mesh_.next(h);
+  while (mesh_.is_triangle(mesh_.face(Mesh::twin(e)))) e = mesh_.rotate_cw(e);
+  return e;
+}
+
+Index Front::prev(Index h) const {
+  Index e = mesh_.prev(h);
+  while (mesh_.is_triangle(mesh_.face(Mesh::twin(e)))) e = mesh_.prev(Mesh::twin(e));
+  return e;
+}
+
+Index Front::corner_of(Index h) const {
+  Index e = h;
+  do {
+    if (contains(e)) return e;
+    e = mesh_.rotate_cw(e);
+    if (!mesh_.is_triangle(mesh_.face(e))) return kNone;
+  } while (e != h);
+  return kNone;
+}
+
+bool Front::is_on_front(Index v) const {
+  Index h = mesh_.out(v);
+  do {
+    if (!mesh_.is_triangle(mesh_.face(h))) return true;
+    h = mesh_.rotate_ccw(h);
+  } while (h != mesh_.out(v));
+  return false;
+}
+
+double Front::angle_between(Index incoming, Index outgoing) const {
+  const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
+  const double angle = ccw_angle(ahead, back);
+  // The two sides of a slit have the same direction at its tip: the wedge there is the whole circle.
+  return angle > 0 ? angle : 2 * std::numbers::pi;
+}
+
+State Front::state(Index h) const {
+  // Compared by cosines: no inverse trigonometry, whose last bit differs between machines.
+  const auto is_corner = [&](Index incoming, Index outgoing) {
+    const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
+    if (cross(ahead, back) < 0) return false;
+    const double dot = ahead.dot(back);
+    if (cross(ahead, back) == 0 && dot > 0) return false;
+    return dot > corner_cosine_ * std::sqrt(ahead.squaredNorm() * back.squaredNorm());
+  };
+  return {is_corner(prev(h), h), is_corner(h, next(h))};
+}
+
+void Front::push(Index h, bool forced) {
+  if (h >= stamp_.size()) stamp_.resize(mesh_.half_edge_slots(), 0);
+  const unsigned priority = forced ? 0 : 2 - unsigned(state(h).corners());
+  queue_.push({priority, level(h), float(mesh_.length(h)), h, ++stamp_[h] * 2 + unsigned(forced)});
+}
+
+void Front::push_around(Index v) {
+  Index h = mesh_.out(v);
+  do {
+    if (contains(h)) push(h);
+    if (contains(Mesh::twin(h))) push(Mesh::twin(h));
+    h = mesh_.rotate_ccw(h);
+  } while (h != mesh_.out(v));
+}
+
+Index Front::pop() {
+  while (!queue_.empty()) {
+    const Entry top = queue_.top();
+    queue_.pop();
+    if (!mesh_.is_live_half_edge(top.half_edge) || !contains(top.half_edge)) continue;
+    if (stamp_[top.half_edge] != top.stamp / 2) continue;
+    popped_forced_ = top.stamp & 1;
+    return top.half_edge;
+  }
+  return kNone;
+}
+
+}  // namespace qmorph::front

@@ -1,0 +1,100 @@
+#pragma once
+/// The advancing front: which half-edges are on it, in which state, and which comes next.
+///
+/// The mesh itself decides what the front is: a half-edge with a triangle ahead and, behind it, the outside or a
+/// quad. So there is no list of front edges that could go stale; kept beside the mesh are only levels,
+/// the colours of loops and a queue.
+
+#include <functional>
+#include <queue>
+#include <vector>
+
+#include "front/logged_column.hpp"
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::front {
+
+using kernel::Mesh;
+
+/// State of a front edge: one bit for each end that is a corner. Thesis 2.2.2.
+struct State {
+  bool left = false;   ///< at origin(h)
+  bool right = false;  ///< at target(h)
+  int corners() const { return int(left) + int(right); }
+};
+
+class Front {
+ public:
+  Front(const Mesh& mesh, const FrontOptions& options);
+
+  // --- membership and neighbours: questions to the mesh -------------------------------------------
+  bool contains(Index h) const {
+    return mesh_.is_triangle(mesh_.face(h)) && !mesh_.is_triangle(mesh_.face(Mesh::twin(h)));
+  }
+  /// The front edge that follows (precedes) h through the triangles ahead. O(valence).
+  Index next(Index h) const;
+  Index prev(Index h) const;
+  /// The front edge that leaves origin(h) on the clockwise side of the fan of triangles around h, or kNone
+  /// if origin(h) is not on the front.
+  Index corner_of(Index h) const;
+  bool is_on_front(Index v) const;
+  /// Angle through the triangles ahead between h and the front edge before (after) it, in (0, 2 pi].
+  double angle_left(Index h) const { return angle_between(prev(h), h); }
+  double angle_right(Index h) const { return angle_between(h, next(h)); }
+  double angle_between(Index incoming, Index outgoing) const;
+  State state(Index h) const;
+
+  // --- levels -----------------------------------------------------------------------------------------
+  /// Rows between the front edge and the boundary. Thesis 2.2.3.
+  unsigned level(Index h) const { return levels_[h]; }
+  void set_level(Index h, unsigned level) { levels_.set(h, level); }
+  LoggedColumn<unsigned>& levels() { return levels_; }
+
+  // --- queue ------------------------------------------------------------------------------------------
+  /// (Re)enters a front edge with its present state, level and length. `forced`: as if in state 1-1, once.
+  void push(Index h, bool forced = false);
+  /// Re-enters every front edge that starts or ends at v.
+  void push_around(Index v);
+  /// The edge to process next, or kNone when the queue is empty. Thesis 3.5.2.
+  Index pop();
+  bool was_forced() const { return popped_forced_; }
+
+ private:
+  struct Entry {
+    unsigned priority;  ///< 0 first
+    unsigned level;
+    float length;
+    Index half_edge;
+    unsigned stamp;
+    bool operator>(const Entry& o) const {
+      static const int mode = getenv("MODE") ? atoi(getenv("MODE")) : 0;
+      if (mode == 1) {
+        if ((priority == 0) != (o.priority == 0)) return priority > o.priority;
+        if (level != o.level) return level > o.level;
+        if (priority != o.priority) return priority > o.priority;
+      }
+      if (mode == 2) {
+        if (level != o.level) return level > o.level;
+        if (priority != o.priority) return priority > o.priority;
+      }
+      if (mode == 3) {
+        if (level/2 != o.level/2) return level > o.level;
+      }
+      if (priority != o.priority) return priority > o.priority;
+      if (level != o.level) return level > o.level;
+      if (length != o.length) return length > o.length;
+      return half_edge > o.half_edge;
+    }
+  };
+
+  const Mesh& mesh_;
+  FrontOptions options_;
+  double corner_cosine_;
+  LoggedColumn<unsigned> levels_;
+  std::vector<unsigned> stamp_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  bool popped_forced_ = false;
+};
+
+}  // namespace qmorph::front

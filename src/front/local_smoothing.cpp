@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "front/step.hpp"
+
+namespace qmorph::front {
+namespace {
+
+/// Above this ratio of the longest to the shortest front edge at a node its neighbours decide its distance
+/// from the row behind; above the second, all edges at the node. [Owen99], thesis 3.5.5.
+constexpr double kModerateTransition = 2.5;
+constexpr double kStrongTransition = 20;
+/// A move must leave the worst corner around above this sine, unless it was worse before.
+constexpr double kWorstSine = 0.05;
+constexpr int kHalvings = 3;
+
+struct Surrounding {
+  int quads = 0;
+  int front_edges = 0;
+  Index incoming = kNone, outgoing = kNone;  ///< front edges, the last pair found
+};
+
+Surrounding look_around(const Step& step, Index v) {
+  const Mesh& mesh = step.mesh;
+  Surrounding s;
+  Index h = mesh.out(v);
+  do {
+    if (mesh.is_quad(mesh.face(h))) ++s.quads;
+    if (step.front.contains(h)) s.outgoing = h, ++s.front_edges;
+    if (step.front.contains(Mesh::twin(h))) s.incoming = Mesh::twin(h), ++s.front_edges;
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return s;
+}
+
+/// Mean over the quads around v of where v completes a parallelogram. [Blacker91]
+Vec2 isoparametric_position(const Mesh& mesh, Index v, int quads) {
+  Vec2 sum = Vec2::Zero();
+  Index h = mesh.out(v);
+  do {
+    if (mesh.is_quad(mesh.face(h))) {
+      const Index k = mesh.next(h);
+      sum += mesh.point(mesh.target(h)) + mesh.point(mesh.origin(mesh.prev(h))) -
+             mesh.point(mesh.target(k));
+    }
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return sum / quads;
+}
+
+/// Length-weighted Laplacian: neighbours far away pull more. [Blacker91]
+Vec2 weighted_laplacian_position(const Mesh& mesh, Index v) {
+  Vec2 sum = Vec2::Zero();
+  double weights = 0;
+  Index h = mesh.out(v);
+  do {
+    const Vec2 edge = mesh.vector(h);
+    const double length = edge.norm();
+    sum += length * edge;
+    weights += length;
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return weights > 0 ? Vec2(mesh.point(v) + sum / weights) : mesh.point(v);
+}
+
+/// How far the front node v should be from the node behind it.
+double ideal_distance(const Mesh& mesh, const Surrounding& s, Index behind) {
+  const double l1 = mesh.length(s.incoming), l2 = mesh.length(s.outgoing);
+  const double ratio = std::max(l1, l2) / std::min(l1, l2);
+  if (ratio <= kModerateTransition) {
+    // Rows keep their height when the front bends: the diagonal of a corner is longer than its sides.
+    const double angle = ccw_angle(mesh.vector(s.outgoing), -mesh.vector(s.incoming));
+    constexpr double kLeastSine = 0.7;
+    return 0.5 * (l1 + l2) / std::max(kLeastSine, std::sin(angle / 2));
+  }
+  const Index v = mesh.origin(s.outgoing);
+  double sum = 0;
+  int edges = 0;
+  Index h = mesh.out(v);
+  do {
+    const bool is_behind = mesh.target(h) == behind;
+    const bool is_ahead = mesh.is_triangle(mesh.face(h)) && mesh.is_triangle(mesh.face(Mesh::twin(h)));
+    if (ratio > kStrongTransition || is_behind || is_ahead) sum += mesh.length(h), ++edges;
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return edges ? sum / edges : 0.5 * (l1 + l2);
+}
+
+/// The node behind a front node that two quads share.
+Index node_behind(const Mesh& mesh, Index v) {
+  Index h = mesh.out(v);
+  do {
+    if (mesh.is_quad(mesh.face(h)) && mesh.is_quad(mesh.face(Mesh::twin(h)))) return mesh.target(h);
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return kNone;
+}
+
+/// Blacker and Stephenson's move for a front node between two quads: isoparametric, corrected for length and
+/// for angle (mean of the two). Thesis 3.5.5 and design section 4.
+Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
+  const Mesh& mesh = step.mesh;
+  const Vec2 isoparametric = isoparametric_position(mesh, v, s.quads);
+  const Index behind = node_behind(mesh, v);
+  if (behind == kNone) return isoparametric;
+  const Vec2 base = mesh.point(behind);
+  const Vec2 step_out = isoparametric - base;
+  if (step_out.norm() == 0) return isoparametric;
+  const double distance = ideal_distance(mesh, s, behind);
+  const Vec2 by_length = base + step_out.normalized() * distance;
+
+  const Vec2 to_next = mesh.point(mesh.target(s.outgoing)) - base;
+  const Vec2 to_previous = mesh.point(mesh.origin(s.incoming)) - base;
+  const double wedge = ccw_angle(to_next, to_previous);
+  const Vec2 bisector = rotated(to_next, wedge / 2).normalized();
+  const double off = signed_angle(bisector, mesh.point(v) - base);
+  const Vec2 direction = rotated(bisector, off / 2);
+  double length = distance;
+  if (wedge < std::numbers::pi) {
+    const Vec2 chord = to_previous - to_next;
+    const double denominator = cross(direction, chord);
+    const double to_chord = denominator != 0 ? cross(to_next, chord) / denominator : distance;
+    if (to_chord > 0 && distance > to_chord) length = 0.5 * (distance + to_chord);
+  }
+  const Vec2 by_angle = base + direction * length;
+  return 0.5 * (by_length + by_angle);
+}
+
+double worst_sine_around(const Mesh& mesh, Index v) {
+  double worst = 1;
+  Index h = mesh.out(v);
+  do {
+    if (mesh.face(h) != kNone) worst = std::min(worst, mesh.smallest_sine(mesh.face(h)));
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return worst;
+}
+
+/// Moves v towards `goal` as far as every element around stays (or becomes) valid.
+bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal) {
+  const Vec2 start = mesh.point(v);
+  const double worst_before = worst_sine_around(mesh, v);
+  const double floor = std::min(worst_before, kWorstSine);
+  double share = 1;
+  for (int i = 0; i <= kHalvings; ++i, share /= 2) {
+    mesh.set_point(v, start + share * (goal - start));
+    const double worst = worst_sine_around(mesh, v);
+    if (worst > 0 && worst >= floor && mesh.is_valid_star(v)) return true;
+  }
+  mesh.set_point(v, start);
+  return false;
+}
+
+void smooth_node(Step& step, Index v) {
+  kernel::Mesh& mesh = step.mesh;
+  if (mesh.is_fixed(v) || mesh.is_boundary(v)) return;
+  const Surrounding s = look_around(step, v);
+  Vec2 goal;
+  if (s.front_edges == 0)
+    goal = weighted_laplacian_position(mesh, v);
+  else if (s.quads == 2 && s.front_edges == 2)
+    goal = row_position(step, v, s);
+  else if (s.quads > 0)
+    goal = isoparametric_position(mesh, v, s.quads);
+  else
+    return;
+  if (move_guarded(mesh, v, goal)) step.moved.push_back(v);
+}
+
+}  // namespace
+
+void smooth_around(Step& step, Index face) {
+  const Mesh& mesh = step.mesh;
+  std::vector<Index> corners, others;
+  const Index start = mesh.half_edge(face);
+  Index h = start;
+  do {
+    corners.push_back(mesh.origin(h));
+    h = mesh.next(h);
+  } while (h != start);
+  for (Index v : corners) {
+    Index e = mesh.out(v);
+    do {
+      others.push_back(mesh.target(e));
+      e = mesh.rotate_ccw(e);
+    } while (e != mesh.out(v));
+  }
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  for (Index v : corners) smooth_node(step, v);
+  for (Index v : others)
+    if (std::find(corners.begin(), corners.end(), v) == corners.end()) smooth_node(step, v);
+}
+
+}  // namespace qmorph::front

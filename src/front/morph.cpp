@@ -1,0 +1,279 @@
+#include "front/morph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "front/step.hpp"
+
+namespace qmorph::front {
+namespace {
+
+/// A front that makes more steps than this for each triangle of the input is going round in circles.
+constexpr std::size_t kStepsPerTriangle = 6;
+/// Base edges that were set aside are tried again this often.
+constexpr int kMostRounds = 8;
+
+class Morph {
+ public:
+  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check)
+      : mesh_(mesh), front_(mesh, options), colours_(mesh, front_),
+        step_{mesh, front_, colours_, options, {}, {}, {}, 0}, options_(options), check_(check) {}
+
+  MorphCounts run(const std::function<void(double)>& progress) {
+    start();
+    const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::size_t made_before = made();
+      for (Index base; (base = next_base()) != kNone;) {
+        if (++steps_ > most_steps) return counts_;
+        if (progress && steps_ % 4096 == 0) progress(double(steps_) / double(most_steps));
+        if (!advance(base)) set_aside(base);
+        if (check_) check();
+      }
+      if (made() == made_before) break;
+      for (Index h : aside_)
+        if (mesh_.is_live_half_edge(h) && front_.contains(h)) enter(h);
+      aside_.clear();
+    }
+    return counts_;
+  }
+
+ private:
+  std::size_t made() const {
+    return counts_.quads + counts_.seams + counts_.transition_seams + counts_.small_loops;
+  }
+
+  /// Thesis 3.5.3: not selectable until something around the edge has changed.
+  void set_aside(Index h) {
+    is_aside_.set(h, true);
+    aside_.push_back(h);
+    ++counts_.set_aside;
+  }
+  void enter(Index h, bool forced = false) {
+    is_aside_.set(h, false);
+    front_.push(h, forced);
+  }
+
+  void note_sizes() {
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
+      if (!mesh_.is_live_vertex(v)) continue;
+      double sum = 0;
+      int edges = 0;
+      Index h = mesh_.out(v);
+      do {
+        sum += mesh_.length(h), ++edges;
+        h = mesh_.rotate_ccw(h);
+      } while (h != mesh_.out(v));
+      step_.size.set(v, sum / edges);
+    }
+  }
+
+  void start() {
+    note_sizes();
+    for (Index h = 0; h < mesh_.half_edge_slots(); ++h)
+      if (mesh_.is_live_half_edge(h) && front_.contains(h) && !colours_.is_coloured(mesh_.origin(h)))
+        colours_.colour_loop(h);
+    for (Index h = 0; h < mesh_.half_edge_slots(); ++h)
+      if (mesh_.is_live_half_edge(h) && front_.contains(h)) front_.push(h);
+  }
+
+  void check() const {
+    if (const auto defects = find_defects(mesh_); !defects.empty())
+      throw std::logic_error("advancing front: " + defects[0]);
+  }
+
+  /// Thesis 3.5.2: the queue's first, or a much shorter neighbour of it unless it is in state 1-1.
+  Index next_base() {
+    const Index h = front_.pop();
+    if (h == kNone || front_.was_forced() || front_.state(h).corners() == 2) return h;
+    const double length = mesh_.length(h);
+    Index shortest = h;
+    double least = length / options_.transition_ratio;
+    for (Index n : {front_.prev(h), front_.next(h)})
+      if (!is_aside_[n] && mesh_.length(n) < least) shortest = n, least = mesh_.length(n);
+    if (shortest != h) front_.push(h);
+    return shortest;
+  }
+
+  /// One base edge: a special case, a small loop or a quad. False if the edge has to be set aside.
+  bool advance(Index base) {
+    const bool forced = front_.was_forced();
+    if (!forced)
+      for (bool left : {true, false})
+        if (special_case(base, left)) return true;
+    if (attempt([&] { return close_small_loop(step_, base); })) return ++counts_.small_loops, true;
+    if (attempt([&] { return make_quad(base); })) return ++counts_.quads, true;
+    return false;
+  }
+
+  /// Runs a step in a transaction and brings the front up to date if it succeeded.
+  template <class Operation>
+  bool attempt(const Operation& operation) {
+    begin();
+    step_.moved.clear();
+    joins_.clear();
+    if (!operation()) {
+      rollback();
+      return false;
+    }
+    commit();
+    for (const auto& [a, b] : joins_) join(a, b);
+    reclassify();
+    return true;
+  }
+
+  void begin() { mesh_.begin(), front_.levels().begin(), colours_.labels().begin(), step_.size.begin(); }
+  void commit() { mesh_.commit(), front_.levels().commit(), colours_.labels().commit(), step_.size.commit(); }
+  void rollback() { mesh_.rollback(), front_.levels().rollback(), colours_.labels().rollback(), step_.size.rollback(); }
+
+  void join(Index a, Index b) {
+    if (!mesh_.is_live_vertex(a) || !mesh_.is_live_vertex(b)) return;
+    Index loop = kNone;
+    Index h = mesh_.out(a);
+    do {
+      if (front_.contains(h)) loop = h;
+      h = mesh_.rotate_ccw(h);
+    } while (h != mesh_.out(a));
+    colours_.join(a, b, loop);
+  }
+
+  void reclassify() {
+    // A node that moved changes the states at its neighbours on the front as well.
+    touched_.clear();
+    for (Index v : step_.moved) {
+      if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
+      Index h = mesh_.out(v);
+      do {
+        for (Index e : {h, Mesh::twin(h)})
+          if (front_.contains(e)) {
+            touched_.push_back(e);
+            touched_.push_back(mesh_.origin(e) == v ? front_.next(e) : front_.prev(e));
+          }
+        h = mesh_.rotate_ccw(h);
+      } while (h != mesh_.out(v));
+    }
+    std::sort(touched_.begin(), touched_.end());
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    for (Index e : touched_) enter(e);
+    if (forced_ != kNone && front_.contains(forced_)) enter(forced_, true);
+    forced_ = kNone;
+  }
+
+  /// Seam, transition seam or transition split at one end of the base edge. Thesis 2.2.4.
+  bool special_case(Index base, bool left) {
+    const Index in = left ? front_.prev(base) : base, out = left ? base : front_.next(base);
+    if (in == out || Mesh::twin(in) == out) return false;
+    const double angle = front_.angle_between(in, out);
+    const double l1 = mesh_.length(in), l2 = mesh_.length(out);
+    const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
+    if (angle < seam_angle(mesh_.target(in))) {
+      if (transition) {
+        if (attempt([&] { return transition_seam(step_, in, out); }))
+          return ++counts_.transition_seams, true;
+      } else if (attempt([&] { return seam(step_, in, out); })) {
+        return ++counts_.seams, true;
+      }
+      return false;
+    }
+    if (!transition || front_.state(base).corners() == 2) return false;
+    return attempt([&] {
+      const Index split = transition_split(step_, in, out);
+      forced_ = split;
+      return split != kNone;
+    }) && (++counts_.transition_splits, true);
+  }
+
+  double seam_angle(Index v) const {
+    int quads = 0;
+    Index h = mesh_.out(v);
+    do {
+      quads += mesh_.is_quad(mesh_.face(h));
+      h = mesh_.rotate_ccw(h);
+    } while (h != mesh_.out(v));
+    return quads >= 5 ? options_.seam_angle_many : options_.seam_angle;
+  }
+
+  /// Quads that should share the angle at a node of the front; the side edge stands off the base edge by one of them.
+  static double quads_in(double angle) {
+    return std::max(2.0, std::round(angle / (0.5 * std::numbers::pi)));
+  }
+
+  bool make_quad(Index base) {
+    const State state = front_.state(base);
+    const Index before = front_.prev(base), after = front_.next(base);
+    if (before == after) return false;  // a loop of two
+    const Index n0 = mesh_.origin(base), n1 = mesh_.target(base);
+    // The reused sides first: what the other side makes must not end there.
+    Index left = state.left ? before : kNone;    // half-edges of the ring: left N2 -> N0,
+    Index right = state.right ? after : kNone;   // right N1 -> N3
+    if (left == kNone) {
+      const double angle = front_.angle_left(base);
+      const Taken taken{right == kNone ? kNone : mesh_.target(right), right};
+      const Index side = define_side_edge(step_, {before, base, angle / quads_in(angle)}, taken);
+      if (side == kNone) return false;
+      note_join(n0, mesh_.target(side));
+      left = Mesh::twin(side);
+    }
+    if (right == kNone) {
+      const Index following = front_.next(base);
+      const double angle = front_.angle_between(base, following);
+      const Taken taken{mesh_.origin(left), left};
+      right = define_side_edge(step_, {base, following, angle - angle / quads_in(angle)}, taken);
+      if (right == kNone) return false;
+      note_join(n1, mesh_.target(right));
+    }
+    const Index n2 = mesh_.origin(left), n3 = mesh_.target(right);
+    if (n2 == n3 || n2 == n1 || n3 == n0) return false;
+    const Index top = recover_edge(step_, left, n3);  // N2 -> N3
+    if (top == kNone) return false;
+    const unsigned level = front_.level(base) + 1;
+    const Index quad = form_face(step_, {base, right, Mesh::twin(top), left}, kMostTrianglesInQuad);
+    if (quad == kNone) return false;
+    finish_quad(quad, {base, right, Mesh::twin(top), left}, level);
+    return mesh_.is_valid_face(quad);
+  }
+
+  void note_join(Index a, Index b) {
+    if (colours_.is_coloured(b)) joins_.emplace_back(a, b);
+  }
+
+  void finish_quad(Index quad, const std::array<Index, 4>& ring, unsigned level) {
+    const Index n0 = mesh_.origin(ring[0]), n1 = mesh_.origin(ring[1]), n3 = mesh_.origin(ring[2]),
+                n2 = mesh_.origin(ring[3]);
+    if (!colours_.is_coloured(n2)) colours_.colour_opposite(n2, n0);
+    if (!colours_.is_coloured(n3)) colours_.colour_opposite(n3, n1);
+    note_join(n2, n3);
+    for (Index h : ring)
+      if (front_.contains(Mesh::twin(h))) front_.set_level(Mesh::twin(h), level);
+    step_.moved.insert(step_.moved.end(), {n0, n1, n2, n3});
+    smooth_around(step_, quad);
+  }
+
+  static constexpr std::size_t kMostTrianglesInQuad = 64;
+
+  kernel::Mesh& mesh_;
+  Front front_;
+  LoopColours colours_;
+  Step step_;
+  FrontOptions options_;
+  bool check_;
+  MorphCounts counts_;
+  std::size_t steps_ = 0;
+  LoggedColumn<bool> is_aside_;
+  std::vector<Index> aside_, touched_;
+  std::vector<std::pair<Index, Index>> joins_;
+  Index forced_ = kNone;
+};
+
+}  // namespace
+
+MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
+                  const std::function<void(double)>& progress) {
+  auto c= Morph(mesh, options, check_each_step).run(progress);
+  if(getenv("DBG")) printf("quads %zu seams %zu tseam %zu tsplit %zu loops %zu aside %zu\n",c.quads,c.seams,c.transition_seams,c.transition_splits,c.small_loops,c.set_aside);
+  return c;
+}
+
+}  // namespace qmorph::front

@@ -1,0 +1,43 @@
+#include <algorithm>
+
+#include "front/step.hpp"
+
+namespace qmorph::front {
+
+Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_triangles) {
+  kernel::Mesh& mesh = step.mesh;
+  const auto on_ring = [&](Index h) { return std::find(ring.begin(), ring.end(), h) != ring.end(); };
+  const auto is_ring_node = [&](Index v) {
+    return std::any_of(ring.begin(), ring.end(), [&](Index r) { return mesh.origin(r) == v; });
+  };
+  if (step.face_mark.size() < mesh.face_slots()) step.face_mark.resize(mesh.face_slots(), 0);
+  const unsigned mark = ++step.mark;
+
+  std::vector<Index> inside{mesh.face(ring[0])};
+  step.face_mark[inside[0]] = mark;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const Index start = mesh.half_edge(inside[i]);
+    Index h = start;
+    do {
+      const Index beyond = mesh.face(Mesh::twin(h));
+      if (!on_ring(h)) {
+        if (!mesh.is_triangle(beyond)) return kNone;  // a hole, a quad, a constraint
+        if (step.face_mark[beyond] != mark) {
+          if (inside.size() >= most_triangles) return kNone;
+          step.face_mark[beyond] = mark;
+          inside.push_back(beyond);
+        }
+        const Index v = mesh.origin(h);
+        if (mesh.is_fixed(v) && !is_ring_node(v)) return kNone;
+      }
+      h = mesh.next(h);
+    } while (h != start);
+  }
+  for (Index r : ring)  // the ring must really enclose what was found
+    if (mesh.face(r) == kNone || !mesh.is_triangle(mesh.face(r)) ||
+        step.face_mark[mesh.face(r)] != mark)
+      return kNone;
+  return mesh.make_face(ring, inside);
+}
+
+}  // namespace qmorph::front

@@ -1,0 +1,80 @@
+#pragma once
+/// What every step of the advancing front works on. A step either succeeds or reports that it did not; the driver
+/// runs each in a transaction of the mesh, so a step that gives up half-way has changed nothing.
+
+#include <vector>
+
+#include "front/front.hpp"
+#include "front/loop_colours.hpp"
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::front {
+
+struct Step {
+  kernel::Mesh& mesh;
+  Front& front;
+  LoopColours& colours;
+  const FrontOptions& options;
+  LoggedColumn<double> size;           ///< edge length that the input has at a node
+  std::vector<Index> moved;            ///< nodes that the step moved or created
+
+  // Scratch space of flood fills, kept to avoid allocations.
+  std::vector<unsigned> face_mark;
+  unsigned mark = 0;
+};
+
+// --- side edges: side_edge.cpp ----------------------------------------------------------------------------
+
+/// One end of the base edge: the front edges that meet there and the ideal direction of the side edge.
+struct Corner {
+  Index incoming;      ///< front edge into the node
+  Index outgoing;      ///< front edge out of the node
+  double ideal_angle;  ///< from `outgoing`, counter-clockwise
+};
+/// What a side edge must leave alone: the other side's far node and edge.
+struct Taken {
+  Index node = kNone;
+  Index half_edge = kNone;
+};
+/// A half-edge from the corner's node to the far node of a side edge: an edge that is there, or one made by
+/// a swap or a split. kNone if none is possible. Thesis 2.2.3, [Owen99] "side edge definition".
+Index define_side_edge(Step& step, const Corner& corner, const Taken& taken);
+
+// --- edge_recovery.cpp ------------------------------------------------------------------------------------
+
+/// Makes the segment from origin(h) to v an edge by swapping the edges that it crosses; the segment leaves
+/// origin(h) counter-clockwise of h. Returns the half-edge origin(h) -> v, or kNone if a front edge,
+/// a quad or a node is in the way. [Owen99] algorithms 1 and 2.
+Index recover_edge(Step& step, Index h, Index v);
+
+// --- quad_formation.cpp -----------------------------------------------------------------------------------
+
+/// Replaces the triangles inside a ring of half-edges (interior on their left) by one face; kNone if
+/// there is a hole, a quad or a fixed node inside.
+Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_triangles);
+
+// --- seam.cpp, transition.cpp -------------------------------------------------------------------------------
+
+/// Sews the front edges `incoming` and `outgoing` together, which meet at a sharp angle. Thesis 2.2.4.
+bool seam(Step& step, Index incoming, Index outgoing);
+/// Seam of two front edges of very different length: the longer is split first. Thesis 2.2.4, figure 2.1.
+bool transition_seam(Step& step, Index incoming, Index outgoing);
+/// Splits the longer of two front edges and the quad behind it. Returns the new front edge
+/// that is to be the next base, or kNone. Thesis 2.2.4, figure 3.3.
+Index transition_split(Step& step, Index incoming, Index outgoing);
+
+// --- small_loops.cpp --------------------------------------------------------------------------------------
+
+/// Fills the loop of h if it has four or six edges and few triangles inside. Thesis 2.2.3.
+bool close_small_loop(Step& step, Index h);
+
+// --- local_smoothing.cpp ------------------------------------------------------------------------------------
+
+/// Smooths the nodes of a face and their neighbours and notes in `step.moved` which moved. Thesis 3.5.5.
+void smooth_around(Step& step, Index face);
+
+/// New node at p on the edge of h, whose faces are triangles: both are split. Returns the node.
+Index split_triangles(Step& step, Index h, const Vec2& p);
+
+}  // namespace qmorph::front

@@ -1,0 +1,339 @@
+#include "kernel/mesh.hpp"
+
+#include <cassert>
+
+#include "geometry/predicates.hpp"
+
+namespace qmorph::kernel {
+namespace {
+
+/// Where the half-edges of each vertex start in an array sorted by origin: a counting sort.
+std::vector<Index> offsets_by_origin(Index vertices,
+                                     const std::vector<std::array<Index, 3>>& triangles) {
+  std::vector<Index> start(vertices + 1, 0);
+  for (const auto& t : triangles)
+    for (Index v : t) ++start[v + 1];
+  for (Index v = 0; v < vertices; ++v) start[v + 1] += start[v];
+  return start;
+}
+
+}  // namespace
+
+Mesh::Mesh(std::vector<Vec2> points, const std::vector<std::array<Index, 3>>& triangles) {
+  const auto vertices = Index(points.size());
+  vertices_.resize(vertices);
+  for (Index v = 0; v < vertices; ++v) vertices_[v].point = points[v];
+  faces_.resize(triangles.size());
+  half_edges_.reserve(triangles.size() * 3 + 64);
+
+  // Half-edges of each origin, to find the other half of an edge among a handful.
+  const std::vector<Index> start = offsets_by_origin(vertices, triangles);
+  std::vector<Index> fill(start.begin(), start.end() - 1);
+  std::vector<std::pair<Index, Index>> leaving(triangles.size() * 3);  // (target, half-edge)
+  for (Index f = 0; f < triangles.size(); ++f) {
+    std::array<Index, 3> h{};
+    for (int i = 0; i < 3; ++i) {
+      const Index a = triangles[f][i], b = triangles[f][(i + 1) % 3];
+      h[i] = kNone;
+      for (Index k = start[b]; k < fill[b]; ++k)
+        if (leaving[k].first == a) h[i] = twin(leaving[k].second);
+      if (h[i] == kNone) {
+        h[i] = Index(half_edges_.size());
+        half_edges_.resize(half_edges_.size() + 2);
+        half_edges_[h[i]].origin = a;
+        half_edges_[h[i] ^ 1].origin = b;
+      }
+      leaving[fill[a]++] = {b, h[i]};
+      vertices_[a].out = h[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+      half_edges_[h[i]].face = f;
+      half_edges_[h[i]].next = h[(i + 1) % 3];
+      half_edges_[h[i]].prev = h[(i + 2) % 3];
+    }
+    faces_[f] = {h[0], 3};
+  }
+  for (Index h = 0; h < half_edges_.size(); ++h)
+    if (half_edges_[h].face == kNone) vertices_[half_edges_[h].origin].out = h;
+  for (Index h = 0; h < half_edges_.size(); ++h)
+    if (half_edges_[h].face == kNone) {
+      const Index following = vertices_[target(h)].out;
+      half_edges_[h].next = following;
+      half_edges_[following].prev = h;
+    }
+}
+
+Index Mesh::valence(Index v) const {
+  Index count = 0, h = out(v);
+  do {
+    ++count;
+    h = rotate_ccw(h);
+  } while (h != out(v));
+  return count;
+}
+
+Index Mesh::find(Index a, Index b) const {
+  Index h = out(a);
+  do {
+    if (target(h) == b) return h;
+    h = rotate_ccw(h);
+  } while (h != out(a));
+  return kNone;
+}
+
+bool Mesh::is_valid_face(Index f) const {
+  const Index start = half_edge(f);
+  Index h = start;
+  do {
+    if (!is_ccw(point(origin(prev(h))), point(origin(h)), point(target(h)))) return false;
+    h = next(h);
+  } while (h != start && degree(f) != 3);
+  return true;
+}
+
+bool Mesh::is_valid_star(Index v) const {
+  Index h = out(v);
+  do {
+    if (face(h) != kNone && !is_valid_face(face(h))) return false;
+    h = rotate_ccw(h);
+  } while (h != out(v));
+  return true;
+}
+
+double Mesh::smallest_sine(Index f) const {
+  const Index start = half_edge(f);
+  double smallest = 1;
+  Index h = start;
+  do {
+    smallest =
+        std::min(smallest, corner_sine(point(origin(h)), point(target(h)), point(origin(prev(h)))));
+    h = next(h);
+  } while (h != start);
+  return smallest;
+}
+
+// --- edits ----------------------------------------------------------------------------------------------
+
+void Mesh::set_point(Index v, const Vec2& p) { edit_vertex(v).point = p; }
+
+void Mesh::link(Index h, Index after) {
+  edit_half_edge(h).next = after;
+  edit_half_edge(after).prev = h;
+}
+
+/// Keeps the rule that a boundary vertex's half-edge is the boundary one.
+void Mesh::refresh_out(Index v, Index h) {
+  const Index start = h;
+  do {
+    if (face(h) == kNone) break;
+    h = rotate_ccw(h);
+  } while (h != start);
+  if (out(v) != h) set_out(v, h);
+}
+
+Index Mesh::split_edge(Index h, const Vec2& p) {
+  const Index t = twin(h), b = target(h), m = new_vertex(p);
+  const Index n = new_edge(m, b);
+  const Index after = next(h), before = prev(t), f = face(h), g = face(t);
+  edit_half_edge(t).origin = m;
+  link(h, n);
+  link(n, after);
+  link(before, twin(n));
+  link(twin(n), t);
+  set_face(n, f);
+  set_face(twin(n), g);
+  if (f != kNone) ++edit_face(f).degree;
+  if (g != kNone) ++edit_face(g).degree;
+  if (out(b) == t) set_out(b, twin(n));
+  set_out(m, g == kNone ? t : n);
+  return m;
+}
+
+Index Mesh::split_face(Index g, Index h) {
+  assert(face(g) == face(h) && g != h);
+  const Index f = face(g), before_g = prev(g), before_h = prev(h);
+  const Index d = new_edge(origin(g), origin(h));
+  const Index other = new_face();
+  link(before_g, d);
+  link(d, h);
+  link(before_h, twin(d));
+  link(twin(d), g);
+  set_face(d, f);
+  Index other_degree = 1;
+  set_face(twin(d), other);
+  for (Index e = g; e != twin(d); e = next(e), ++other_degree) set_face(e, other);
+  edit_face(other) = {twin(d), other_degree};
+  Face& kept = edit_face(f);
+  kept = {d, kept.degree + 2 - other_degree};
+  return d;
+}
+
+Index Mesh::join_faces(Index h) {
+  const Index t = twin(h), f = face(h), g = face(t);
+  assert(f != kNone && g != kNone && f != g);
+  const Index joined = next(h), a = origin(h), b = target(h);
+  for (Index e = next(t); e != t; e = next(e)) set_face(e, f);
+  edit_face(f) = {joined, degree(f) + degree(g) - 2};
+  kill_face(g);
+  const Index from_a = next(t);
+  link(prev(h), next(t));
+  link(prev(t), joined);
+  kill_edge(h);
+  if (out(a) == h) set_out(a, from_a);
+  if (out(b) == t) set_out(b, joined);
+  return joined;
+}
+
+bool Mesh::can_flip(Index h) const {
+  const Index t = twin(h);
+  if (!is_triangle(face(h)) || !is_triangle(face(t))) return false;
+  const Index a = origin(h), b = target(h), c = origin(prev(h)), d = origin(prev(t));
+  return is_ccw(point(a), point(d), point(c)) && is_ccw(point(d), point(b), point(c)) &&
+         find(c, d) == kNone;
+}
+
+void Mesh::flip(Index h) {
+  //      c            c        h: a -> b becomes h: d -> c
+  //    / | \        / | \      .
+  //   a--h--b  ->  a  h  b     (drawn with a left, b right, the old edge horizontal)
+  //    \ | /        \ | /
+  //      d            d
+  const Index t = twin(h), f = face(h), g = face(t);
+  const Index bc = next(h), ca = prev(h), ad = next(t), db = prev(t);
+  const Index a = origin(h), b = origin(t), c = origin(ca), d = origin(db);
+  edit_half_edge(h).origin = d;
+  edit_half_edge(t).origin = c;
+  link(h, ca), link(ca, ad), link(ad, h);
+  link(t, db), link(db, bc), link(bc, t);
+  set_face(ad, f);
+  set_face(bc, g);
+  edit_face(f).half_edge = h;
+  edit_face(g).half_edge = t;
+  if (out(a) == h) set_out(a, ad);
+  if (out(b) == t) set_out(b, bc);
+}
+
+bool Mesh::can_collapse(Index h) const {
+  const Index a = origin(h), b = target(h);
+  if (is_boundary(a) || is_fixed(a)) return false;
+  const Index f = face(h), g = face(twin(h));
+  const Index left = is_triangle(f) ? origin(prev(h)) : kNone;
+  const Index right = is_triangle(g) ? origin(prev(twin(h))) : kNone;
+  if (left != kNone && (left == right || valence(left) < 3)) return false;
+  if (right != kNone && valence(right) < 3) return false;
+  Index e = h;
+  do {
+    const Index x = target(e);
+    if (x != b && x != left && x != right && find(x, b) != kNone) return false;
+    // A quad that has a and b at opposite corners would meet b twice.
+    if (face(e) != f && face(e) != g && is_quad(face(e)) && target(next(e)) == b) return false;
+    e = rotate_ccw(e);
+  } while (e != h);
+  return true;
+}
+
+void Mesh::collapse(Index h) {
+  assert(can_collapse(h));
+  const Index t = twin(h), a = origin(h), b = target(h);
+  const Index f = face(h), g = face(t), after_h = next(h), after_t = next(t);
+  for (Index e = rotate_ccw(h); e != h; e = rotate_ccw(e)) edit_half_edge(e).origin = b;
+  link(prev(h), after_h);
+  link(prev(t), after_t);
+  for (const auto& [side, gone, after] : {std::array{f, h, after_h}, std::array{g, t, after_t}}) {
+    if (side == kNone) continue;
+    edit_face(side).half_edge = after;
+    --edit_face(side).degree;
+  }
+  if (out(b) == t) set_out(b, after_h);
+  kill_edge(h);
+  kill_vertex(a);
+  if (f != kNone && degree(f) == 2) remove_two_gon(after_h);
+  if (g != kNone && degree(g) == 2) remove_two_gon(after_t);
+}
+
+/// A face with two sides vanishes; the edge of h stays in the place of both.
+void Mesh::remove_two_gon(Index h) {
+  const Index k = next(h), outer = twin(k), u = origin(h), v = origin(k);
+  const Index gone = face(h), beyond = face(outer);
+  const Index before = prev(outer), after = next(outer);
+  link(before, h);
+  link(h, after);
+  set_face(h, beyond);
+  if (beyond != kNone) edit_face(beyond).half_edge = h;
+  if (out(u) == outer) set_out(u, h);
+  if (out(v) == k) set_out(v, twin(h));
+  kill_face(gone);
+  kill_edge(k);
+}
+
+Index Mesh::open_quad(Index h, Index k, const Vec2& p) {
+  //        x                 x
+  //        |               /   \        The edges between h = (v, x) and k = (v, y), counter-clockwise,
+  //   -----v-----  ->  ---w  Q  v---    go over to w.
+  //        |               \   /
+  //        y                 y
+  const Index v = origin(h), x = target(h), y = target(k), back = twin(k);
+  assert(h != k && rotate_ccw(h) != k);
+  const Index w = new_vertex(p);
+  for (Index e = rotate_ccw(h); e != k;) {
+    const Index following = rotate_ccw(e);
+    edit_half_edge(e).origin = w;
+    e = following;
+  }
+  const Index wx = new_edge(w, x), wy = new_edge(w, y), quad = new_face();
+  const Index left = face(h), right = face(back);
+  const Index before_h = prev(h), after_h = next(h), before_back = prev(back),
+              after_back = next(back);
+  link(before_h, wx), link(wx, after_h);
+  link(before_back, twin(wy)), link(twin(wy), after_back);
+  set_face(wx, left), set_face(twin(wy), right);
+  edit_face(left).half_edge = wx;
+  edit_face(right).half_edge = twin(wy);
+  link(h, twin(wx)), link(twin(wx), wy), link(wy, back), link(back, h);
+  for (Index e : {h, twin(wx), wy, back}) set_face(e, quad);
+  edit_face(quad) = {h, 4};
+  set_out(w, wx);
+  refresh_out(v, h);
+  return w;
+}
+
+Index Mesh::make_face(const std::vector<Index>& ring, const std::vector<Index>& inside) {
+  const auto on_ring = [&](Index h) {
+    for (Index r : ring)
+      if (r == h) return true;
+    return false;
+  };
+  std::vector<Index> inner;  // one half-edge of every edge that goes
+  std::vector<Index> origins;
+  for (Index f : inside) {
+    const Index start = half_edge(f);
+    Index h = start;
+    do {
+      if (!on_ring(h)) {
+        origins.push_back(origin(h));
+        if ((h & 1) == 0) inner.push_back(h);
+      }
+      h = next(h);
+    } while (h != start);
+  }
+  for (Index r : ring) {
+    const Index v = origin(r);
+    if (face(out(v)) != kNone) set_out(v, r);
+  }
+  for (Index v : origins) {
+    bool keep = !is_live_vertex(v);
+    for (Index r : ring) keep = keep || origin(r) == v;
+    if (!keep) kill_vertex(v);
+  }
+  for (Index h : inner) kill_edge(h);
+  for (Index f : inside) kill_face(f);
+  const Index face = new_face();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    set_face(ring[i], face);
+    link(ring[i], ring[(i + 1) % ring.size()]);
+  }
+  edit_face(face) = {ring[0], Index(ring.size())};
+  return face;
+}
+
+}  // namespace qmorph::kernel

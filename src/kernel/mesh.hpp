@@ -1,0 +1,159 @@
+#pragma once
+/// Half-edge mesh of one region: faces of degree 3 and 4 (more for a moment, inside an operation), 32-bit indices,
+/// every edit O(1) or O(valence). The outside is linked too, so that going round a vertex needs no
+/// special case at the boundary.
+///
+/// Invariants, checked by `find_defects()`:
+///   - the twin of h is h ^ 1; next(prev(h)) == h; target(h) == origin(next(h)); a face has one loop
+///   - face(h) == kNone outside; a boundary vertex has exactly one outgoing boundary half-edge, and it is out(v)
+///   - two vertices are joined by one edge at most
+///   - a dead element is reachable from nothing
+
+#include <string>
+#include <vector>
+
+#include "geometry/vec2.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph::kernel {
+
+struct HalfEdge {
+  Index origin = kNone, next = kNone, prev = kNone, face = kNone;
+};
+struct Vertex {
+  Vec2 point = Vec2::Zero();
+  Index out = kNone;    ///< an outgoing half-edge; the boundary one if there is one
+  bool fixed = false;   ///< must neither move nor vanish
+};
+struct Face {
+  Index half_edge = kNone;
+  Index degree = 0;
+};
+
+class Mesh {
+ public:
+  Mesh() = default;
+  /// From an indexed mesh that is a manifold with boundary, faces counter-clockwise.
+  Mesh(std::vector<Vec2> points, const std::vector<std::array<Index, 3>>& triangles);
+
+  // --- navigation -----------------------------------------------------------------------------------
+  static Index twin(Index h) { return h ^ 1; }
+  Index next(Index h) const { return half_edges_[h].next; }
+  Index prev(Index h) const { return half_edges_[h].prev; }
+  Index face(Index h) const { return half_edges_[h].face; }
+  Index origin(Index h) const { return half_edges_[h].origin; }
+  Index target(Index h) const { return half_edges_[h ^ 1].origin; }
+  Index out(Index v) const { return vertices_[v].out; }
+  Index half_edge(Index f) const { return faces_[f].half_edge; }
+  Index degree(Index f) const { return faces_[f].degree; }
+  const Vec2& point(Index v) const { return vertices_[v].point; }
+  bool is_fixed(Index v) const { return vertices_[v].fixed; }
+  bool is_triangle(Index f) const { return f != kNone && faces_[f].degree == 3; }
+  bool is_quad(Index f) const { return f != kNone && faces_[f].degree == 4; }
+  bool is_boundary_edge(Index h) const { return face(h) == kNone || face(h ^ 1) == kNone; }
+  bool is_boundary(Index v) const { return face(out(v)) == kNone; }
+  /// The outgoing half-edge that follows h counter-clockwise around its origin.
+  Index rotate_ccw(Index h) const { return twin(prev(h)); }
+  Index rotate_cw(Index h) const { return next(twin(h)); }
+  Vec2 vector(Index h) const { return point(target(h)) - point(origin(h)); }
+  double length(Index h) const { return vector(h).norm(); }
+  Index valence(Index v) const;
+  /// The half-edge from a to b, or kNone. O(valence).
+  Index find(Index a, Index b) const;
+
+  bool is_live_vertex(Index v) const { return vertices_[v].out != kNone; }
+  bool is_live_face(Index f) const { return faces_[f].half_edge != kNone; }
+  bool is_live_half_edge(Index h) const { return half_edges_[h].origin != kNone; }
+  /// Sizes of the index ranges, dead elements included.
+  Index vertex_slots() const { return Index(vertices_.size()); }
+  Index half_edge_slots() const { return Index(half_edges_.size()); }
+  Index face_slots() const { return Index(faces_.size()); }
+
+  // --- geometry of elements -----------------------------------------------------------------------------
+  /// All corners of the face are strictly convex (exact).
+  bool is_valid_face(Index f) const;
+  /// Every face around v is valid.
+  bool is_valid_star(Index v) const;
+  /// Smallest sine of the face's corners, signed: its scaled Jacobian.
+  double smallest_sine(Index f) const;
+
+  // --- edits ----------------------------------------------------------------------------------------
+  void set_point(Index v, const Vec2& p);
+  void set_fixed(Index v) { vertices_[v].fixed = true; }
+  /// New vertex at p on the edge of h: h ends there. Both faces gain a side. Returns the vertex.
+  Index split_edge(Index h, const Vec2& p);
+  /// New edge from origin(g) to origin(h), two half-edges of one face; it lies left of the face's part
+  /// that starts with h. Returns the half-edge origin(g) -> origin(h).
+  Index split_face(Index g, Index h);
+  /// Removes the edge of h; its two faces become one, face(h). Returns a half-edge of it.
+  Index join_faces(Index h);
+  /// Turns the diagonal of two triangles. Precondition: `can_flip(h)`.
+  void flip(Index h);
+  bool can_flip(Index h) const;  ///< two triangles, strictly convex union, new edge not there yet
+  /// Merges origin(h) into target(h). Precondition: `can_collapse(h)`.
+  void collapse(Index h);
+  bool can_collapse(Index h) const;  ///< topology only: the result is still a mesh
+  /// Splits v: the edges from h (exclusive) counter-clockwise to k (exclusive) move to a new vertex at p, and a
+  /// quad v, target(h), new, target(k) opens. h == k is not allowed. Returns the new vertex.
+  Index open_quad(Index h, Index k, const Vec2& p);
+  /// Replaces everything inside the closed ring of half-edges (interior on their left) by one face.
+  /// `faces` are the faces inside. Returns the face.
+  Index make_face(const std::vector<Index>& ring, const std::vector<Index>& inside);
+
+  // --- transactions ------------------------------------------------------------------------------------
+  /// Everything between begin() and rollback() is undone, to the bit. Not nested.
+  void begin();
+  void commit();
+  void rollback();
+  bool in_transaction() const { return recording_; }
+
+ private:
+  HalfEdge& edit_half_edge(Index h);
+  Vertex& edit_vertex(Index v);
+  Face& edit_face(Index f);
+  void link(Index h, Index after);
+  void set_face(Index h, Index f) { edit_half_edge(h).face = f; }
+  Index new_edge(Index from, Index to);
+  Index new_face();
+  Index new_vertex(const Vec2& p);
+  void kill_edge(Index h);
+  void kill_face(Index f);
+  void kill_vertex(Index v);
+  void remove_two_gon(Index h);
+  void set_out(Index v, Index h) { edit_vertex(v).out = h; }
+  void refresh_out(Index v, Index h);
+
+  std::vector<HalfEdge> half_edges_;
+  std::vector<Vertex> vertices_;
+  std::vector<Face> faces_;
+
+  template <class T>
+  struct Pool {
+    std::vector<Index> free;      ///< dead slots, to be used again, last first
+    std::vector<Index> taken;     ///< slots taken from `free` since begin()
+    std::vector<Index> released;  ///< slots that died since begin(): free after commit()
+    std::vector<std::pair<Index, T>> old_values;
+    std::size_t size_at_begin = 0;
+  };
+  template <class T>
+  void begin_pool(Pool<T>& pool, const std::vector<T>& values);
+  template <class T>
+  void commit_pool(Pool<T>& pool);
+  template <class T>
+  void rollback_pool(Pool<T>& pool, std::vector<T>& values);
+  template <class T>
+  T& edit(Pool<T>& pool, std::vector<T>& values, Index i);
+  template <class T>
+  void release(Pool<T>& pool, Index i);
+
+  Pool<HalfEdge> edge_pool_;  ///< slots are even half-edges
+  Pool<Vertex> vertex_pool_;
+  Pool<Face> face_pool_;
+  bool recording_ = false;
+};
+
+/// Everything that contradicts the invariants above, in words; empty for a legal mesh. With `geometry`, faces
+/// that are not strictly convex are defects too. Cost: linear; not for inner loops.
+std::vector<std::string> find_defects(const Mesh& mesh, bool geometry = true);
+
+}  // namespace qmorph::kernel
