@@ -1,0 +1,139 @@
+#include "cli/run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "cli/progress.hpp"
+#include "cli/request.hpp"
+#include "gmsh/open.hpp"
+#include "gmsh/session.hpp"
+#include "gmsh/staged_file.hpp"
+#include "gmsh/write.hpp"
+#include "qmorph/gmsh.hpp"
+#include "report/version.hpp"
+#include "report/stats.hpp"
+#include "report/summary.hpp"
+
+namespace qmorph::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Refuses what would fail in the end before hours go into a mesh.
+adapter::OutputPlan check_places(const Request& request) {
+  adapter::check_readable(request.input);
+  if (!request.stats.empty()) const adapter::StagedFile probe(request.stats);
+  return adapter::plan_output(request.input, request.output, request.format);
+}
+
+int status_of(const ModelReport& model) {
+  if (model.count(SurfaceOutcome::kLeft)) return kConvertedInPart;
+  return model.count(SurfaceOutcome::kConverted) ? kAllConverted : kNothingToConvert;
+}
+
+void write(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
+           const ModelReport& model) {
+  const bool converted = model.count(SurfaceOutcome::kConverted) != 0;
+  const bool as_it_was = !converted && opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
+                         !request.msh_version && !request.binary;
+  if (as_it_was)
+    adapter::copy_input(request.input, plan);
+  else
+    adapter::write_model(plan, opened, {request.msh_version, request.binary});
+}
+
+/// What the caller must know in any case, in one line.
+void tell_outcome(const ModelReport& model, std::ostream& err) {
+  std::string left;
+  for (const SurfaceReport& surface : model.surfaces)
+    if (surface.outcome == SurfaceOutcome::kLeft) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
+  if (!left.empty())
+    err << fmt::format("qmorph: converted in part; left as they were: {} of {} surfaces: {}\n",
+                       model.count(SurfaceOutcome::kLeft), model.surfaces.size(), left);
+  else if (model.count(SurfaceOutcome::kConverted) == 0)
+    err << "qmorph: nothing to convert: all surfaces are quads already\n";
+}
+
+void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,
+                   double seconds, std::ostream& err) {
+  if (request.verbosity >= 2)
+    for (const std::string& warning : opened.warnings) err << "Gmsh: " << warning << '\n';
+  if (request.verbosity >= 1) {
+    for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
+    for (const SurfaceReport& surface : model.surfaces) {
+      err << report::surface_line(surface) << '\n';
+      for (const std::string& warning : surface.warnings)
+        err << "warning: surface " << surface.tag << ": " << warning << '\n';
+    }
+    err << report::total_line(model, seconds) << '\n';
+  }
+  tell_outcome(model, err);
+}
+
+int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
+  const Clock::time_point start = Clock::now();
+  const adapter::OutputPlan plan = check_places(request);
+  const adapter::Session session(request.gmsh_arguments);
+  if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
+  const adapter::OpenedModel opened = adapter::open_model(request.input);
+
+  Options options;
+  const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
+  if (watched) options.progress = Progress(err);
+  const ModelReport model = recombine(request.surfaces, options);
+  if (model.surfaces.empty()) {
+    err << "qmorph: nothing to convert: " << request.input << " has no surface with elements\n";
+    return kNothingToConvert;
+  }
+
+  const Clock::time_point write_start = Clock::now();
+  if (!opened.had_mesh) adapter::renumber();
+  write(request, plan, opened, model);
+  report::RunFacts facts{request.input, plan.path, arguments, status_of(model)};
+  facts.open_seconds = opened.open_seconds;
+  facts.mesh_seconds = opened.mesh_seconds;
+  facts.write_seconds = seconds_since(write_start);
+  facts.total_seconds = seconds_since(start);
+  if (!request.stats.empty()) adapter::write_text(request.stats, report::stats_json(model, facts));
+  print_summary(request, opened, model, facts.total_seconds, err);
+  return facts.exit_status;
+}
+
+int fail(int status, std::string_view what, std::ostream& err) {
+  err << "qmorph: " << what << '\n';
+  if (status == kBadUsage) err << "qmorph: try qmorph --help\n";
+  return status;
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) try {
+  const Request request = parse(arguments);
+  if (request.help) out << help_text();
+  if (request.version) out << "qmorph " << kVersion << '\n';
+  if (request.help || request.version) return kAllConverted;
+  return convert_file(request, arguments, err);
+} catch (const UsageError& error) {
+  return fail(kBadUsage, error.what(), err);
+} catch (const OutputError& error) {
+  return fail(kCannotWrite, error.what(), err);
+} catch (const Error& error) {
+  return fail(kBadInput, error.what(), err);
+} catch (const std::bad_alloc&) {
+  return fail(kBadInput, "not enough memory", err);
+} catch (const std::exception& error) {
+  return fail(kBadInput, fmt::format("a mistake of qmorph: {}", error.what()), err);
+} catch (const std::string& error) {  // Gmsh before 4.10
+  return fail(kBadInput, fmt::format("Gmsh: {}", error), err);
+} catch (...) {
+  return fail(kBadInput, "a mistake of qmorph", err);
+}
+
+}  // namespace qmorph::cli

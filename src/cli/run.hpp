@@ -1,0 +1,23 @@
+#pragma once
+/// The command, without the process around it, so that a test can call it.
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace qmorph::cli {
+
+/// Part of the command's contract: scripts depend on these numbers.
+enum ExitStatus : int {
+  kAllConverted = 0,
+  kBadUsage = 1,
+  kBadInput = 2,
+  kConvertedInPart = 3,
+  kNothingToConvert = 4,
+  kCannotWrite = 5,
+};
+
+/// Runs the command. Answers to --help and --version go to `out`, everything else to `err`. Throws nothing.
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
+
+}  // namespace qmorph::cli

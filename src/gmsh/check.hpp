@@ -1,0 +1,19 @@
+#pragma once
+/// A second opinion on the engine's result, in space and against the input, before the model is touched.
+
+#include <Eigen/Core>
+#include <string>
+
+#include "qmorph/patch.hpp"
+
+namespace qmorph::adapter {
+
+/// Unit normal that the elements of a planar patch follow: the direction of the sum of their area vectors.
+Eigen::Vector3d patch_normal(const Patch& patch);
+
+/// What is wrong with a result, with coordinates, or an empty string. Looks at the invariants I1 to I4 and I6 of the
+/// design: boundary and constraint edges, fixed nodes, conformity, positive corners, area.
+/// Cost: linear.
+std::string find_defect(const Patch& patch, const QuadMesh& mesh);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,136 @@
+#include "gmsh/meshing.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Gmsh's number of "simple": the only pairing that a script can switch off for each surface (notes 4.1).
+constexpr double kSimplePairing = 0;
+/// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly (notes 8.3).
+constexpr double kBlossomPairing = 1;
+
+/// A file for as long as it is needed.
+class ScratchFile {
+ public:
+  explicit ScratchFile(const std::string& extension)
+      : path_(fs::temp_directory_path() / fmt::format("qmorph-{}-{}{}", ::getpid(), ++count_, extension)) {}
+  ~ScratchFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  std::string path() const { return path_.string(); }
+
+ private:
+  static inline int count_ = 0;
+  fs::path path_;
+};
+
+std::vector<int> all_surfaces() {
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  std::vector<int> tags;
+  for (const auto& [dim, tag] : surfaces) tags.push_back(tag);
+  return tags;
+}
+
+/// Surfaces with `Recombine Surface`. No call of 4.8 tells, but the model written as a script does (notes 8.3).
+std::vector<int> flagged_surfaces() {
+  const ScratchFile script(".geo_unrolled");
+  run_logged([&] { ::gmsh::write(script.path()); });
+  std::ifstream in(script.path());
+  static const std::regex statement(R"(^\s*Recombine Surface \{([^}]*)\})");
+  static const std::regex number(R"(\d+)");
+  std::set<int> tags;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (!std::regex_search(line, match, statement)) continue;
+    const std::string list = match[1];
+    for (std::sregex_iterator it(list.begin(), list.end(), number), end; it != end; ++it)
+      tags.insert(std::stoi(it->str()));
+  }
+  return {tags.begin(), tags.end()};
+}
+
+/// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle of 0 accepts no pair.
+void forbid_pairing(const std::vector<int>& surfaces) {
+  const ScratchFile script(".geo");
+  {
+    std::ofstream out(script.path());
+    for (int tag : surfaces) out << "Recombine Surface{" << tag << "} = 0;\n";
+    out << "Mesh.RecombinationAlgorithm = " << kSimplePairing << ";\n";
+    if (!out.flush()) throw InputError("cannot write to the temporary directory " + script.path());
+  }
+  ::gmsh::merge(script.path());
+}
+
+void refuse_high_order() {
+  const double order = get_option("Mesh.ElementOrder");
+  if (order > 1)
+    throw InputError(fmt::format("Mesh.ElementOrder is {:g}, and only linear meshes can be converted for now; set "
+                                 "Mesh.ElementOrder = 1",
+                                 order));
+}
+
+/// Options that would make Gmsh recombine by itself, for the time of the meshing.
+struct RecombinationOff {
+  ScopedOption all{"Mesh.RecombineAll", 0};
+  ScopedOption algorithm{"Mesh.RecombinationAlgorithm", kBlossomPairing};
+  ScopedOption subdivision{"Mesh.SubdivisionAlgorithm", 0};
+};
+
+double area_or_one(int surface) {
+  double area = 1;  // where there is no CAD kernel to ask, every surface is expected to have elements
+  const StageLog log = run_logged([&] { ::gmsh::model::occ::getMass(2, surface, area); });
+  return log.errors.empty() ? area : 1;
+}
+
+void check_every_surface_has_elements() {
+  for (int tag : all_surfaces()) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    ::gmsh::model::mesh::getElements(types, tags, nodes, 2, tag);
+    if (types.empty() && area_or_one(tag) > 0)
+      throw InputError(fmt::format("Gmsh made no element on surface {}", tag));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_surfaces() {
+  refuse_high_order();
+  const bool all = get_option("Mesh.RecombineAll") != 0 || get_option("Mesh.SubdivisionAlgorithm") == 1;
+  const std::vector<int> flagged = all ? all_surfaces() : flagged_surfaces();
+#if !QMORPH_GMSH_AT_LEAST(4, 9)
+  // Frontal-Delaunay for quads crashes in a Gmsh without the ANN library, like Debian's, unless it needs no neighbours.
+  if (get_option("Mesh.Algorithm") == 8) set_option("Mesh.CrossFieldClosestPoint", 0);
+#endif
+  const StageLog log = run_logged([&] {
+    const RecombinationOff off;
+    set_option("Mesh.RecombineAll", 1);
+    ::gmsh::model::mesh::generate(1);
+    set_option("Mesh.RecombineAll", 0);
+    if (!flagged.empty()) forbid_pairing(flagged);
+    ::gmsh::model::mesh::generate(2);
+  });
+  if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
+  check_every_surface_has_elements();
+  return log.warnings;
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,126 @@
+#include "gmsh/open.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/meshing.hpp"
+#include "gmsh/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A header is in the first lines, after comments if there are any.
+constexpr int kLinesToLookAt = 200;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool surfaces_have_elements() {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 2);
+  return !types.empty();
+}
+
+bool has_surfaces() {
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  return !surfaces.empty();
+}
+
+/// Version 2 stores one group for each element; Gmsh gives all groups of an entity to all its elements, and would
+/// write each of them several times (notes 1.7).
+void refuse_mixed_groups(const MshHeader& header) {
+  if (header.version == 0 || header.version >= 4) return;
+  ::gmsh::vectorpair entities;
+  ::gmsh::model::getEntities(entities);
+  for (const auto& [dim, tag] : entities) {
+    std::vector<int> groups;
+    ::gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
+    if (groups.size() > 1)
+      throw InputError(fmt::format(
+          "elements with elementary tag {} (dimension {}) are in {} physical groups, which Gmsh cannot keep apart; "
+          "give each group its own elementary tag, or write the file as MSH 4.1",
+          tag, dim, groups.size()));
+  }
+}
+
+}  // namespace
+
+/// Gmsh before 4.12 says nothing about a missing file, and asks no further about the others (notes, trap 3).
+void check_readable(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw InputError(fmt::format("{}: no such file", path));
+  if (fs::is_directory(status)) throw InputError(fmt::format("{} is a directory", path));
+  if (!std::ifstream(path)) throw InputError(fmt::format("{} cannot be read", path));
+  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
+    throw InputError(fmt::format("{} is empty", path));
+}
+
+MshHeader read_msh_header(const std::string& path) {
+  MshHeader header;
+  const bool named_msh = lower_extension(path) == ".msh";
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  for (int i = 0; i < kLinesToLookAt && std::getline(in, line); ++i) {
+    if (line.rfind("$NOD", 0) == 0) {
+      header.version = 1;
+      return header;
+    }
+    if (line.rfind("$MeshFormat", 0) != 0) continue;
+    int binary = 0;
+    std::getline(in, line);
+    if (std::istringstream(line) >> header.version >> binary) {
+      header.binary = binary != 0;
+      return header;
+    }
+    break;
+  }
+  if (named_msh) throw InputError(fmt::format("{} has no $MeshFormat: it is not a Gmsh mesh", path));
+  return {};
+}
+
+OpenedModel open_model(const std::string& path) {
+  check_readable(path);
+  OpenedModel opened;
+  opened.msh = read_msh_header(path);
+  set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it on reading (notes 1.5)
+
+  auto start = std::chrono::steady_clock::now();
+  const StageLog log = run_logged([&] { ::gmsh::open(path); });
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
+  refuse_mixed_groups(opened.msh);
+  opened.warnings = log.warnings;
+  std::vector<int> views;
+  ::gmsh::view::getTags(views);
+  if (!views.empty()) opened.warnings.push_back("the data in the file (views) is not part of the mesh and is not written");
+  opened.open_seconds = seconds_since(start);
+
+  opened.had_mesh = opened.msh.version != 0 || surfaces_have_elements();
+  if (opened.had_mesh || !has_surfaces()) return opened;
+  start = std::chrono::steady_clock::now();
+  const std::vector<std::string> warnings = mesh_surfaces();
+  opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
+  opened.mesh_seconds = seconds_since(start);
+  return opened;
+}
+
+}  // namespace qmorph::adapter

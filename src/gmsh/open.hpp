@@ -1,0 +1,38 @@
+#pragma once
+/// From a file to a model with triangles.
+
+#include <string>
+#include <vector>
+
+namespace qmorph::adapter {
+
+/// Gmsh's 2D algorithm where the user has no wish: Frontal-Delaunay.
+inline constexpr int kDefaultAlgorithm = 6;
+
+/// How a .msh file is written. `version` is 0 for other files.
+struct MshHeader {
+  double version = 0;
+  bool binary = false;
+};
+
+/// Looks into the first lines of a file. \throws InputError if it is named .msh and is none.
+MshHeader read_msh_header(const std::string& path);
+
+/// \throws InputError if there is no such file, or it is a directory, empty, or not readable.
+void check_readable(const std::string& path);
+
+/// What `open_model` found.
+struct OpenedModel {
+  MshHeader msh;           ///< version 0: not a .msh file
+  bool had_mesh = false;   ///< the surfaces' elements come from the file, not from Gmsh's mesher
+  std::vector<std::string> warnings;
+  double open_seconds = 0, mesh_seconds = 0;
+};
+
+/// Opens a file with Gmsh and, if its surfaces have no elements yet, meshes them: curves with an even number of
+/// segments first, so that surfaces can become quads without a triangle left; then surfaces with triangles.
+/// Surfaces that the script wants transfinite or extruded *and* recombined come as quads.
+/// \throws InputError with Gmsh's own words if the file cannot be opened, understood, or meshed.
+OpenedModel open_model(const std::string& path);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,273 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "gmsh/check.hpp"
+#include "gmsh/compat.hpp"
+#include "gmsh/model_mesh.hpp"
+#include "gmsh/patches.hpp"
+#include "gmsh/replace.hpp"
+#include "gmsh/session.hpp"
+#include "qmorph/convert.hpp"
+#include "qmorph/gmsh.hpp"
+
+namespace qmorph {
+namespace {
+
+using namespace adapter;
+
+/// Relative to the surface's extent. Only for the figures of surfaces that are quads already; what is flat enough to be
+/// converted is the engine's decision.
+constexpr double kFlatnessTolerance = 1e-6;
+
+/// Seconds since it was made, or since it was last asked.
+class StopWatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The model's mesh with every node owned by the lowest entity that uses it.
+struct ReadModel {
+  ModelMesh mesh;
+  NodeUse use;
+};
+
+ReadModel read_model(ModelReport& report) {
+  ReadModel model;
+  model.mesh = read_model_mesh();
+  model.use = find_node_use(model.mesh);
+  if (!is_misclassified(model.mesh, model.use)) return model;
+
+  // Gmsh's reclassification forgets nodes on points and curves that have no elements; they stay fixed all the same.
+  std::vector<std::size_t> pinned_tags;
+  for (Index row = 0; row < model.mesh.tags.size(); ++row)
+    if (model.use.pinned[row]) pinned_tags.push_back(model.mesh.tags[row]);
+  const StageLog log = run_logged([] { ::gmsh::model::mesh::reclassifyNodes(); });
+  if (!log.errors.empty()) throw InputError("Gmsh cannot classify the nodes: " + first_errors(log));
+  report.warnings.push_back("the file has nodes in entities that do not use them; they have been classified again");
+  model.mesh = read_model_mesh();
+  model.use = find_node_use(model.mesh, pinned_tags);
+  return model;
+}
+
+void refuse_ghost_cells(const ModelMesh& mesh) {
+  for (const EntityMesh& entity : mesh.entities)
+    if (entity_type(entity.dim, entity.tag).rfind("Ghost", 0) == 0)
+      throw InputError(fmt::format("the mesh is partitioned with ghost cells (entity {} of dimension {}); partition it "
+                                   "after the conversion",
+                                   entity.tag, entity.dim));
+}
+
+std::string group_name(int surface) {
+  std::vector<int> groups;
+  ::gmsh::model::getPhysicalGroupsForEntity(2, surface, groups);
+  std::string name;
+  if (!groups.empty()) ::gmsh::model::getPhysicalName(2, groups.front(), name);
+  return name;
+}
+
+/// Tags of surfaces that are periodic to another surface, or another to them.
+std::vector<int> find_periodic(const ModelMesh& mesh) {
+  std::vector<int> tags;
+  for (const EntityMesh& entity : mesh.entities) {
+    if (entity.dim != 2) continue;
+    int master = entity.tag;
+    std::vector<std::size_t> nodes, master_nodes;
+    std::vector<double> transformation;
+    ::gmsh::model::mesh::getPeriodicNodes(2, entity.tag, master, nodes, master_nodes, transformation, false);
+    if (master == entity.tag || nodes.empty()) continue;
+    tags.push_back(entity.tag);
+    tags.push_back(master);
+  }
+  return tags;
+}
+
+/// Triangles and quads of an entity, of any order.
+std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
+  std::size_t triangles = 0, quads = 0;
+  for (const ElementBlock& block : entity.blocks) {
+    std::string name;
+    int dim = 0, order = 0, nodes = 0, primary_nodes = 0;
+    std::vector<double> local;
+    ::gmsh::model::mesh::getElementProperties(block.type, name, dim, order, nodes, local, primary_nodes);
+    (primary_nodes == 4 ? quads : triangles) += block.tags.size();
+  }
+  return {triangles, quads};
+}
+
+bool is_flat(const Patch& patch, const Eigen::Vector3d& normal) {
+  Eigen::Vector3d low = patch.points[0], high = patch.points[0];
+  double deviation = 0;
+  for (const Eigen::Vector3d& p : patch.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    deviation = std::max(deviation, std::abs((p - patch.points[0]).dot(normal)));
+  }
+  return deviation <= kFlatnessTolerance * (high - low).norm();
+}
+
+void add_stats(const ConversionStats& from, ConversionStats& to) {
+  to.regions += from.regions;
+  to.odd_regions += from.odd_regions;
+  to.front_quads += from.front_quads;
+  to.leftover_triangles += from.leftover_triangles;
+  to.front_seconds += from.front_seconds;
+  to.elimination_seconds += from.elimination_seconds;
+  to.cleanup_seconds += from.cleanup_seconds;
+  to.smoothing_seconds += from.smoothing_seconds;
+}
+
+/// One run over the surfaces of a model.
+class Run {
+ public:
+  Run(const Options& options, ModelReport& report)
+      : options_(options), report_(report), model_(read_model(report)), fixed_edges_(model_.mesh, model_.use) {
+    refuse_ghost_cells(model_.mesh);
+    periodic_ = find_periodic(model_.mesh);
+    local_.assign(model_.mesh.tags.size(), kNone);
+  }
+
+  void visit(std::uint32_t entity);
+  void finish();
+  const ModelMesh& mesh() const { return model_.mesh; }
+
+ private:
+  void convert_surface(std::uint32_t entity, SurfaceReport& report);
+  void measure_quads(std::uint32_t entity, SurfaceReport& report);
+
+  const Options& options_;
+  ModelReport& report_;
+  ReadModel model_;
+  FixedEdges fixed_edges_;
+  std::vector<int> periodic_;
+  std::vector<Index> local_;
+  std::vector<ConvertedSurface> converted_;
+  QualityAccumulator total_;
+};
+
+void Run::visit(std::uint32_t entity) {
+  const EntityMesh& mesh = model_.mesh.entities[entity];
+  StopWatch watch;
+  SurfaceReport report;
+  report.tag = mesh.tag;
+  report.name = group_name(mesh.tag);
+  std::tie(report.triangles_in, report.quads_in) = count_elements(mesh);
+  report.triangles_out = report.triangles_in;
+  report.quads_out = report.quads_in;
+  if (report.triangles_in == 0) {
+    report.outcome = SurfaceOutcome::kAlreadyQuads;
+    measure_quads(entity, report);
+  } else {
+    try {
+      convert_surface(entity, report);
+    } catch (const SurfaceError& error) {
+      report.reason = error.what();
+    }
+  }
+  report.seconds = watch.lap();
+  report_.surfaces.push_back(std::move(report));
+}
+
+void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
+  if (std::count(periodic_.begin(), periodic_.end(), report.tag))
+    throw SurfaceError("it is periodic with another surface, and periodic pairs cannot be converted yet");
+  StopWatch watch;
+  ConvertedSurface converted;
+  converted.surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
+  report_.read_seconds += watch.lap();
+  ConversionStats stats;
+  for (const SurfacePart& part : converted.surface.parts) {
+    converted.results.push_back(convert(part.patch, options_));
+    add_stats(converted.results.back().stats, stats);
+  }
+  report_.convert_seconds += watch.lap();
+
+  QualityAccumulator quality;
+  std::size_t triangles = 0, quads = 0;
+  for (std::size_t p = 0; p < converted.results.size(); ++p) {
+    const Patch& patch = converted.surface.parts[p].patch;
+    const QuadMesh& result = converted.results[p];
+    if (const std::string defect = find_defect(patch, result); !defect.empty())
+      throw SurfaceError("the result is not valid: " + defect + "; this is a mistake of qmorph");
+    quality.add(result.points, result.triangles, result.quads, patch_normal(patch));
+    triangles += result.triangles.size();
+    quads += result.quads.size();
+  }
+  for (std::size_t p = 0; p < converted.results.size(); ++p) {
+    const QuadMesh& result = converted.results[p];
+    total_.add(result.points, result.triangles, result.quads, patch_normal(converted.surface.parts[p].patch));
+  }
+  report.outcome = SurfaceOutcome::kConverted;
+  report.warnings = converted.surface.warnings;
+  report.triangles_out = triangles;
+  report.quads_out = quads;
+  report.quality = quality.result();
+  report.stats = stats;
+  converted_.push_back(std::move(converted));
+  report_.check_seconds += watch.lap();
+}
+
+void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) try {
+  const SurfaceMesh surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
+  QualityAccumulator quality;
+  for (const SurfacePart& part : surface.parts) {
+    const Eigen::Vector3d normal = patch_normal(part.patch);
+    if (!is_flat(part.patch, normal)) continue;  // corners against one normal would mean nothing
+    quality.add(part.patch.points, part.patch.triangles, part.patch.quads, normal);
+    total_.add(part.patch.points, part.patch.triangles, part.patch.quads, normal);
+  }
+  report.quality = quality.result();
+} catch (const SurfaceError&) {
+  // It stays as it is in any case, and there are no figures for it.
+}
+
+void Run::finish() {
+  StopWatch watch;
+  report_.total = total_.result();
+  report_.check_seconds += watch.lap();
+  replace_surfaces(model_.mesh, converted_);
+  report_.replace_seconds = watch.lap();
+}
+
+/// Indices of the surfaces to look at, by tag.
+std::vector<std::uint32_t> select_surfaces(const ModelMesh& mesh, const std::vector<int>& wanted) {
+  std::vector<int> missing = wanted;
+  std::vector<std::uint32_t> selected;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    if (mesh.entities[e].dim != 2) continue;
+    std::erase(missing, mesh.entities[e].tag);
+    const bool asked = wanted.empty() || std::count(wanted.begin(), wanted.end(), mesh.entities[e].tag);
+    if (asked && mesh.entities[e].element_count()) selected.push_back(e);
+  }
+  if (!missing.empty()) throw UsageError(fmt::format("the model has no surface {}", missing.front()));
+  return selected;
+}
+
+}  // namespace
+
+std::size_t ModelReport::count(SurfaceOutcome outcome) const {
+  return static_cast<std::size_t>(std::count_if(surfaces.begin(), surfaces.end(), [outcome](const SurfaceReport& s) {
+    return s.outcome == outcome;
+  }));
+}
+
+ModelReport recombine(const std::vector<int>& surfaces, const Options& options) {
+  ModelReport report;
+  const QuietErrors quiet;
+  StopWatch watch;
+  Run run(options, report);
+  report.read_seconds += watch.lap();
+  for (std::uint32_t entity : select_surfaces(run.mesh(), surfaces)) run.visit(entity);
+  run.finish();
+  return report;
+}
+
+}  // namespace qmorph

@@ -1,0 +1,240 @@
+#include "gmsh/replace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// Tags of what goes, in order; then tags above all others.
+class TagPool {
+ public:
+  TagPool(std::vector<std::size_t> free, std::size_t max) : free_(std::move(free)), max_(max) {
+    std::sort(free_.begin(), free_.end(), std::greater<>());
+  }
+  std::size_t next() {
+    if (free_.empty()) return ++max_;
+    const std::size_t tag = free_.back();
+    free_.pop_back();
+    return tag;
+  }
+
+ private:
+  std::vector<std::size_t> free_;
+  std::size_t max_;
+};
+
+std::vector<std::size_t> tags_of_removed(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
+  std::vector<std::size_t> tags;
+  for (const ConvertedSurface& converted : surfaces)
+    if (const ElementBlock* block = mesh.entities[converted.surface.entity].block(kTriangle3))
+      tags.insert(tags.end(), block->tags.begin(), block->tags.end());
+  return tags;
+}
+
+/// Tags of the nodes of one part's result. Those that the surface owns, and new ones, go into `entity`.
+std::vector<std::size_t> place_nodes(const ModelMesh& mesh, std::uint32_t owner, const SurfacePart& part,
+                                     const QuadMesh& result, bool several_parts, TagPool& node_tags,
+                                     std::set<Index>& placed, EntityMesh& entity) {
+  std::vector<std::size_t> tags(result.points.size());
+  for (Index i = 0; i < result.points.size(); ++i) {
+    const Index row = result.source[i] == kNone ? kNone : part.rows[result.source[i]];
+    tags[i] = row == kNone ? node_tags.next() : mesh.tags[row];
+    if (row != kNone && mesh.owner[row] != owner) continue;
+    // Parts of one surface may touch at a node that the surface owns.
+    if (several_parts && row != kNone && !placed.insert(row).second) continue;
+    entity.node_tags.push_back(tags[i]);
+    entity.xyz.insert(entity.xyz.end(), result.points[i].data(), result.points[i].data() + 3);
+  }
+  return tags;
+}
+
+ElementBlock new_block(int type, std::size_t nodes_per_element) {
+  ElementBlock block;
+  block.type = type;
+  block.nodes_per_element = nodes_per_element;
+  return block;
+}
+
+/// Parameters for CAD surfaces: projection, raising the order and 3D meshing use them.
+void parametrise(EntityMesh& entity) {
+  std::vector<double> uv;
+  const StageLog log = run_logged([&] { ::gmsh::model::getParametrization(2, entity.tag, entity.xyz, uv); });
+  if (log.errors.empty() && uv.size() == 2 * entity.node_tags.size()) entity.uv = std::move(uv);
+}
+
+EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted, TagPool& node_tags,
+                       TagPool& element_tags) {
+  const EntityMesh& before = mesh.entities[converted.surface.entity];
+  EntityMesh entity;
+  entity.dim = 2;
+  entity.tag = before.tag;
+  ElementBlock triangles = new_block(kTriangle3, 3), quads = new_block(kQuad4, 4);
+  std::set<Index> placed;
+  for (std::size_t p = 0; p < converted.results.size(); ++p) {
+    const SurfacePart& part = converted.surface.parts[p];
+    const QuadMesh& result = converted.results[p];
+    const auto tags = place_nodes(mesh, converted.surface.entity, part, result, converted.results.size() > 1,
+                                  node_tags, placed, entity);
+    for (const auto& triangle : result.triangles)
+      for (Index i : triangle) triangles.nodes.push_back(tags[i]);
+    for (std::size_t q = 0; q < result.quads.size(); ++q) {
+      quads.tags.push_back(q < part.quad_tags.size() ? part.quad_tags[q] : 0);  // 0: still to be given
+      for (Index i : result.quads[q]) quads.nodes.push_back(tags[i]);
+    }
+  }
+  triangles.tags.assign(triangles.nodes.size() / 3, 0);
+  for (ElementBlock* block : {&triangles, &quads}) {
+    for (std::size_t& tag : block->tags)
+      if (tag == 0) tag = element_tags.next();
+    if (!block->tags.empty()) entity.blocks.push_back(std::move(*block));
+  }
+  if (!before.uv.empty()) parametrise(entity);
+  return entity;
+}
+
+void add_nodes(const EntityMesh& entity) {
+  if (!entity.node_tags.empty())
+    ::gmsh::model::mesh::addNodes(entity.dim, entity.tag, entity.node_tags, entity.xyz, entity.uv);
+}
+
+/// All types in one call: each call makes Gmsh number all nodes of the model again (notes 7).
+void add_elements(const EntityMesh& entity) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  for (const ElementBlock& block : entity.blocks) {
+    types.push_back(block.type);
+    tags.push_back(block.tags);
+    nodes.push_back(block.nodes);
+  }
+  if (!types.empty()) ::gmsh::model::mesh::addElements(entity.dim, entity.tag, types, tags, nodes);
+}
+
+#if QMORPH_GMSH_AT_LEAST(4, 13)
+
+/// Takes the elements away alone. Nodes that stay keep their place in the model, periodic maps included.
+void put_back(const ModelMesh& mesh, const std::vector<EntityMesh>& entities) {
+  bool nodes_are_left_over = false;
+  for (const EntityMesh& entity : entities) ::gmsh::model::mesh::removeElements(2, entity.tag);
+  for (const EntityMesh& entity : entities) {
+    EntityMesh fresh;
+    fresh.dim = entity.dim;
+    fresh.tag = entity.tag;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < entity.node_tags.size(); ++i) {
+      const std::vector<double> xyz(entity.xyz.begin() + 3 * i, entity.xyz.begin() + 3 * i + 3);
+      std::vector<double> uv;
+      if (!entity.uv.empty()) uv.assign(entity.uv.begin() + 2 * i, entity.uv.begin() + 2 * i + 2);
+      if (mesh.rows.find(entity.node_tags[i]) != kNone) {
+        ::gmsh::model::mesh::setNode(entity.node_tags[i], xyz, uv);
+        ++kept;
+        continue;
+      }
+      fresh.node_tags.push_back(entity.node_tags[i]);
+      fresh.xyz.insert(fresh.xyz.end(), xyz.begin(), xyz.end());
+      fresh.uv.insert(fresh.uv.end(), uv.begin(), uv.end());
+    }
+    add_nodes(fresh);
+    for (const EntityMesh& before : mesh.entities)
+      if (before.dim == 2 && before.tag == entity.tag && before.node_tags.size() != kept)
+        nodes_are_left_over = true;
+  }
+  for (const EntityMesh& entity : entities) add_elements(entity);
+  if (nodes_are_left_over) ::gmsh::model::mesh::reclassifyNodes();
+}
+
+#else
+
+/// For each entity, the others whose elements use nodes that it owns.
+std::vector<std::set<std::uint32_t>> find_users(const ModelMesh& mesh) {
+  std::vector<std::set<std::uint32_t>> users(mesh.entities.size());
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    std::uint32_t last = e;  // neighbours in the list mostly have one owner
+    for (const ElementBlock& block : mesh.entities[e].blocks)
+      for (std::size_t tag : block.nodes) {
+        const Index row = mesh.rows.find(tag);
+        if (row == kNone || mesh.owner[row] == last || mesh.owner[row] == e) continue;
+        last = mesh.owner[row];
+        users[last].insert(e);
+      }
+  }
+  return users;
+}
+
+/// Clearing a surface frees its nodes, whoever else points to them (notes 1.3): whatever does has to be cleared and put
+/// back with it, and a volume on a surface before the surface.
+std::set<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::set<std::uint32_t>& wanted) {
+  const auto users = find_users(mesh);
+  std::map<std::pair<int, int>, std::uint32_t> index;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
+    index[{mesh.entities[e].dim, mesh.entities[e].tag}] = e;
+  std::set<std::uint32_t> cleared;
+  std::vector<std::uint32_t> open(wanted.begin(), wanted.end());
+  while (!open.empty()) {
+    const std::uint32_t e = open.back();
+    open.pop_back();
+    if (!cleared.insert(e).second) continue;
+    if (mesh.entities[e].dim < 2)
+      throw InputError(fmt::format("nodes of a surface belong to {} {}, which cannot be put back; classify the nodes",
+                                   mesh.entities[e].dim ? "curve" : "point", mesh.entities[e].tag));
+    open.insert(open.end(), users[e].begin(), users[e].end());
+    std::vector<int> up, down;
+    if (mesh.entities[e].dim == 2) ::gmsh::model::getAdjacencies(2, mesh.entities[e].tag, up, down);
+    for (int volume : up)
+      if (const auto found = index.find({3, volume});
+          found != index.end() && mesh.entities[found->second].element_count())
+        open.push_back(found->second);
+  }
+  return cleared;
+}
+
+/// Before 4.13 elements cannot be taken away alone: surfaces are cleared and filled again.
+void put_back(const ModelMesh& mesh, const std::vector<EntityMesh>& entities) {
+  std::map<std::uint32_t, const EntityMesh*> fresh;
+  for (const EntityMesh& entity : entities)
+    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
+      if (mesh.entities[e].dim == 2 && mesh.entities[e].tag == entity.tag) fresh[e] = &entity;
+  std::set<std::uint32_t> wanted;
+  for (const auto& [e, entity] : fresh) wanted.insert(e);
+
+  std::vector<const EntityMesh*> refill;
+  for (std::uint32_t e : find_cleared(mesh, wanted))
+    refill.push_back(fresh.count(e) ? fresh.at(e) : &mesh.entities[e]);
+  ::gmsh::vectorpair to_clear;
+  for (auto it = refill.rbegin(); it != refill.rend(); ++it)  // volumes come last in the model
+    to_clear.emplace_back((*it)->dim, (*it)->tag);
+  ::gmsh::model::mesh::clear(to_clear);
+  for (const EntityMesh* entity : refill) add_nodes(*entity);
+  for (const EntityMesh* entity : refill) add_elements(*entity);
+}
+
+#endif
+
+}  // namespace
+
+void replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
+  if (surfaces.empty()) return;
+  TagPool node_tags({}, mesh.max_node_tag);
+  TagPool element_tags(tags_of_removed(mesh, surfaces), mesh.max_element_tag);
+  std::vector<EntityMesh> entities;
+  for (const ConvertedSurface& converted : surfaces)
+    entities.push_back(make_entity(mesh, converted, node_tags, element_tags));
+  const StageLog log = run_logged([&] { put_back(mesh, entities); });
+  if (!log.errors.empty())
+    throw InputError("Gmsh cannot take the new elements back: " + first_errors(log));
+  // Gmsh says it as a warning, and then nothing has been cleared (notes 1.3).
+  for (const std::string& warning : log.warnings)
+    if (warning.find("Cannot delete mesh") != std::string::npos)
+      throw InputError("Gmsh cannot take the new elements back: " + warning);
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,24 @@
+#pragma once
+/// Puts converted surfaces back into the current Gmsh model.
+
+#include <vector>
+
+#include "gmsh/model_mesh.hpp"
+#include "gmsh/patches.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph::adapter {
+
+/// A surface and, for each of its parts, what the engine made of it.
+struct ConvertedSurface {
+  SurfaceMesh surface;
+  std::vector<QuadMesh> results;
+};
+
+/// Replaces the elements and the inner nodes of the surfaces. Kept nodes keep their tags and new ones get tags above
+/// all others; the tags of the elements that go are used again, so that the numbering has few gaps.
+/// \pre nodes are classified (`is_misclassified` is false), `mesh` is the model's mesh as it is now
+/// \throws InputError if Gmsh refuses a step. The model must not be written then.
+void replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,99 @@
+#include "report/stats.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "report/version.hpp"
+
+namespace qmorph::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json histogram(const std::map<int, std::size_t>& counts) {
+  Json json = Json::object();
+  for (const auto& [valence, count] : counts) json[std::to_string(valence)] = count;
+  return json;
+}
+
+Json quality_json(const Quality& q) {
+  Json json;
+  json["quads"] = q.quads;
+  json["triangles"] = q.triangles;
+  json["inverted"] = q.inverted;
+  if (q.quads) {
+    json["scaled_jacobian"] = {{"min", q.scaled_jacobian_min},
+                               {"p1", q.scaled_jacobian_p1},
+                               {"p5", q.scaled_jacobian_p5},
+                               {"mean", q.scaled_jacobian_mean},
+                               {"share_below_0.3", q.scaled_jacobian_below_03}};
+    json["eta"] = {{"min", q.eta_min}, {"mean", q.eta_mean}};
+    json["thesis_metric"] = {{"min", q.thesis_min}, {"mean", q.thesis_mean}};
+    json["angle_deg"] = {{"min", q.angle_min_deg}, {"max", q.angle_max_deg}};
+  }
+  json["interior_nodes"] = q.interior_nodes;
+  json["irregular_nodes"] = q.irregular_nodes;
+  json["irregular_share"] = q.irregular_share();
+  json["valence_interior"] = histogram(q.valence);
+  json["valence_boundary"] = histogram(q.boundary_valence);
+  return json;
+}
+
+Json engine_json(const ConversionStats& s) {
+  return {{"regions", s.regions},
+          {"odd_regions", s.odd_regions},
+          {"front_quads", s.front_quads},
+          {"leftover_triangles", s.leftover_triangles},
+          {"seconds",
+           {{"front", s.front_seconds},
+            {"elimination", s.elimination_seconds},
+            {"cleanup", s.cleanup_seconds},
+            {"smoothing", s.smoothing_seconds}}}};
+}
+
+const char* outcome_name(SurfaceOutcome outcome) {
+  switch (outcome) {
+    case SurfaceOutcome::kConverted: return "converted";
+    case SurfaceOutcome::kAlreadyQuads: return "already quads";
+    case SurfaceOutcome::kLeft: return "left as it was";
+  }
+  return "";
+}
+
+Json surface_json(const SurfaceReport& s) {
+  Json json;
+  json["tag"] = s.tag;
+  json["name"] = s.name;
+  json["outcome"] = outcome_name(s.outcome);
+  if (!s.reason.empty()) json["reason"] = s.reason;
+  json["warnings"] = s.warnings;
+  json["before"] = {{"triangles", s.triangles_in}, {"quads", s.quads_in}};
+  json["after"] = {{"triangles", s.triangles_out}, {"quads", s.quads_out}};
+  if (s.outcome != SurfaceOutcome::kLeft) json["quality"] = quality_json(s.quality);
+  if (s.outcome == SurfaceOutcome::kConverted) json["engine"] = engine_json(s.stats);
+  json["seconds"] = s.seconds;
+  return json;
+}
+
+}  // namespace
+
+std::string stats_json(const ModelReport& model, const RunFacts& facts) {
+  Json json;
+  json["program"] = "qmorph";
+  json["version"] = kVersion;
+  json["input"] = facts.input;
+  json["output"] = facts.output;
+  json["arguments"] = facts.arguments;
+  json["exit_status"] = facts.exit_status;
+  json["seconds"] = {{"open", facts.open_seconds},       {"mesh", facts.mesh_seconds},
+                     {"read", model.read_seconds},       {"convert", model.convert_seconds},
+                     {"check", model.check_seconds},     {"replace", model.replace_seconds},
+                     {"write", facts.write_seconds},     {"total", facts.total_seconds}};
+  json["warnings"] = model.warnings;
+  json["total"] = quality_json(model.total);
+  json["surfaces"] = Json::array();
+  for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace qmorph::report

@@ -1,0 +1,24 @@
+#pragma once
+/// What came out, for programs: the file of --stats.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "qmorph/gmsh.hpp"
+
+namespace qmorph::report {
+
+/// What the report cannot know.
+struct RunFacts {
+  std::string input, output;
+  std::vector<std::string> arguments;  ///< of the command line
+  int exit_status = 0;
+  double open_seconds = 0, mesh_seconds = 0, write_seconds = 0, total_seconds = 0;
+};
+
+/// The figures of design section 7 as JSON: for each surface and in total, with seconds for each stage. Keys come always in the
+/// same order; numbers are the shortest that read back as the same.
+std::string stats_json(const ModelReport& model, const RunFacts& facts);
+
+}  // namespace qmorph::report

@@ -1,0 +1,50 @@
+#include "report/summary.hpp"
+
+#include <fmt/format.h>
+
+namespace qmorph::report {
+namespace {
+
+std::string elements(std::size_t triangles, std::size_t quads) {
+  if (triangles == 0) return fmt::format("{} quads", quads);
+  if (quads == 0) return fmt::format("{} triangles", triangles);
+  return fmt::format("{} quads and {} triangle{}", quads, triangles, triangles == 1 ? "" : "s");
+}
+
+std::string figures(const Quality& quality) {
+  if (quality.quads == 0) return "no quad";
+  return fmt::format("scaled Jacobian min {:.3f} mean {:.3f}; irregular {:.1f} %", quality.scaled_jacobian_min,
+                     quality.scaled_jacobian_mean, 100 * quality.irregular_share());
+}
+
+}  // namespace
+
+std::string surface_line(const SurfaceReport& surface) {
+  std::string line = fmt::format("surface {}", surface.tag);
+  if (!surface.name.empty()) line += fmt::format(" \"{}\"", surface.name);
+  const std::string before = elements(surface.triangles_in, surface.quads_in);
+  switch (surface.outcome) {
+    case SurfaceOutcome::kLeft:
+      return line + fmt::format(": {} left as they were: {}", before, surface.reason);
+    case SurfaceOutcome::kAlreadyQuads:
+      return line + fmt::format(": {} already; {}", before, figures(surface.quality));
+    case SurfaceOutcome::kConverted:
+      break;
+  }
+  return line + fmt::format(": {} -> {}; {}", before, elements(surface.triangles_out, surface.quads_out),
+                            figures(surface.quality));
+}
+
+std::string total_line(const ModelReport& model, double seconds) {
+  std::size_t triangles_in = 0, quads_in = 0, triangles_out = 0, quads_out = 0;
+  for (const SurfaceReport& surface : model.surfaces) {
+    triangles_in += surface.triangles_in;
+    quads_in += surface.quads_in;
+    triangles_out += surface.triangles_out;
+    quads_out += surface.quads_out;
+  }
+  return fmt::format("total: {} -> {}; {}; {:.2f} s", elements(triangles_in, quads_in),
+                     elements(triangles_out, quads_out), figures(model.total), seconds);
+}
+
+}  // namespace qmorph::report

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace qmorph {
+
+/// Of the CMake project, "0.1.0".
+inline constexpr const char* kVersion = QMORPH_VERSION;
+
+}  // namespace qmorph
