@@ -1,0 +1,95 @@
+// Patches that the engine must refuse, with a message that says where.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "qmorph/convert.hpp"
+
+namespace {
+
+using qmorph::Index;
+using qmorph::Patch;
+
+// 6---7---8
+// | / | / |
+// 3---4---5
+// | / | / |
+// 0---1---2
+Patch grid() {
+  Patch patch;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) patch.points.emplace_back(x, y, 0);
+  for (const Index a : {0u, 1u, 3u, 4u}) {
+    patch.triangles.push_back({a, a + 1, a + 4});
+    patch.triangles.push_back({a, a + 4, a + 3});
+  }
+  return patch;
+}
+
+/// The message of the SurfaceError; empty if there was none.
+std::string refusal(const Patch& patch) {
+  try {
+    qmorph::convert(patch);
+  } catch (const qmorph::SurfaceError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// A band around the origin; from `turns` = 1 on it lies over itself.
+Patch spiral(double turns, double growth) {
+  Patch patch;
+  const int steps = int(24 * turns);
+  for (int i = 0; i <= steps; ++i)
+    for (const double radius : {1.0, 2.0}) {
+      const double angle = 2 * 3.14159265358979323846 * i / 24, r = radius + growth * i / 24;
+      patch.points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
+    }
+  for (Index i = 0; i < Index(steps); ++i) {
+    const Index a = 2 * i, b = a + 1, c = a + 2, d = a + 3;
+    patch.triangles.push_back({a, b, d});
+    patch.triangles.push_back({a, d, c});
+  }
+  return patch;
+}
+
+}  // namespace
+
+TEST_CASE("a good patch is not refused") { CHECK(refusal(grid()) == ""); }
+
+TEST_CASE("patches that are refused with SurfaceError") {
+  Patch patch = grid();
+  SUBCASE("a coordinate that is no number") { patch.points[4].x() = std::numeric_limits<double>::quiet_NaN(); }
+  SUBCASE("a coordinate that is infinite") { patch.points[4].y() = std::numeric_limits<double>::infinity(); }
+  SUBCASE("a triangle turned over by its node") { patch.points[4] = {2.5, 1, 0}; }
+  SUBCASE("a triangle of the other orientation") { std::swap(patch.triangles[3][0], patch.triangles[3][1]); }
+  SUBCASE("three triangles at an edge") {
+    patch.points.emplace_back(1.4, 0.6, 0);
+    patch.triangles.push_back({0, 9, 4});
+  }
+  SUBCASE("a triangle twice") { patch.triangles.push_back(patch.triangles[0]); }
+  SUBCASE("a curved surface") { patch.points[4].z() = 0.2; }
+  SUBCASE("a surface folded at a right angle") {
+    for (const Index i : {2u, 5u, 8u}) patch.points[i] = {1, patch.points[i].y(), 1};
+  }
+  SUBCASE("a node number that does not exist") { patch.triangles[0][1] = 9; }
+  SUBCASE("a triangle with a node twice") { patch.triangles[0] = {0, 1, 1}; }
+  SUBCASE("a node that is covered twice") {  // a fan of 720 degrees
+    patch = {};
+    patch.points.emplace_back(0, 0, 0);
+    for (int i = 0; i < 12; ++i) {
+      const double angle = 3.14159265358979323846 * i / 3;
+      patch.points.emplace_back((1 + 0.1 * i) * std::cos(angle), (1 + 0.1 * i) * std::sin(angle), 0);
+    }
+    for (Index i = 0; i < 12; ++i) patch.triangles.push_back({0, 1 + i, 1 + (i + 1) % 12});
+  }
+  CHECK(refusal(patch) != "");
+}
+
+TEST_CASE("a band that lies over itself is refused, one that does not is not") {
+  CHECK(refusal(spiral(0.9, 0)) == "");
+  CHECK(refusal(spiral(1.5, 1.2)) == "");   // each turn outside the one before
+  CHECK(refusal(spiral(1.5, 0.5)) != "");
+}

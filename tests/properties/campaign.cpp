@@ -1,0 +1,193 @@
+// Long runs over random domains.
+//
+//   qmorph_campaign FIRST LAST          converts the seeds FIRST to LAST: a line for each that fails, then the totals
+//   qmorph_campaign --dump SEED PREFIX  writes PREFIX-in.msh and, if the conversion ends, PREFIX-out.msh
+//
+// The seeds run in a child process, so that one that crashes or hangs is reported like any other, and the rest goes on.
+// Exit status 0 if nothing failed.
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
+#include "support/domains.hpp"
+#include "support/dump.hpp"
+#include "support/invariants.hpp"
+
+namespace {
+
+using namespace qmorph;
+
+constexpr int kHangSeconds = 20;  // an ordinary domain takes milliseconds
+
+/// What the child says about one seed; goes through a pipe as it is.
+struct Report {
+  std::uint64_t seed = 0;
+  std::size_t triangles = 0, quads = 0, interior = 0, irregular = 0;
+  double seconds = 0, sj_min = 1, sj_sum = 0;
+  char kind[80] = "", problem[240] = "";
+};
+
+void copy(char* to, std::size_t size, const std::string& from) { std::snprintf(to, size, "%s", from.c_str()); }
+
+Report run_seed(std::uint64_t seed) {
+  const test::Domain domain = test::random_domain(seed);
+  Report report;
+  report.seed = seed;
+  report.triangles = domain.patch.triangles.size();
+  copy(report.kind, sizeof report.kind, domain.kind);
+  const auto start = std::chrono::steady_clock::now();
+  std::string problem;
+  try {
+    const QuadMesh mesh = convert(domain.patch);
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto broken = test::broken_invariants(domain.patch, mesh);
+    if (!broken.empty()) problem = broken.front();
+    if (broken.empty() || broken.front().rfind("malformed", 0) != 0) {
+      const auto& p = domain.patch;
+      const Quality q = measure(mesh, test::area_vector(p.points, p.triangles, p.quads).normalized());
+      report.quads = q.quads;
+      report.interior = q.interior_nodes;
+      report.irregular = q.irregular_nodes;
+      report.sj_min = q.scaled_jacobian_min;
+      report.sj_sum = q.scaled_jacobian_mean * double(q.quads);
+    }
+  } catch (const std::exception& e) {
+    problem = std::string("exception: ") + e.what();
+  }
+  copy(report.problem, sizeof report.problem, problem);
+  return report;
+}
+
+/// Totals and the seeds that stand out.
+struct Summary {
+  std::size_t seeds = 0, failed = 0, triangles = 0, quads = 0, interior = 0, irregular = 0;
+  std::map<std::string, std::size_t> causes;
+  double seconds = 0, sj_sum = 0;
+  Report worst, slowest;
+  std::size_t under_01 = 0;
+
+  void add(const Report& r) {
+    ++seeds;
+    triangles += r.triangles;
+    quads += r.quads;
+    interior += r.interior;
+    irregular += r.irregular;
+    seconds += r.seconds;
+    sj_sum += r.sj_sum;
+    under_01 += r.sj_min < 0.1;
+    if (r.sj_min < worst.sj_min) worst = r;
+    if (r.seconds > slowest.seconds) slowest = r;
+    if (!r.problem[0]) return;
+    ++failed;
+    const std::string problem = r.problem;
+    ++causes[problem.substr(0, problem.find_first_of(":("))];
+    std::printf("seed %llu (%zu triangles, %s): %s\n", static_cast<unsigned long long>(r.seed), r.triangles, r.kind,
+                r.problem);
+    std::fflush(stdout);
+  }
+
+  void print() const {
+    std::printf("%zu seeds, %zu failed", seeds, failed);
+    for (const auto& [cause, count] : causes) std::printf(", %s %zu", cause.c_str(), count);
+    std::printf("\n%zu triangles to %zu quads, mean scaled Jacobian %.3f, %zu domains with one under 0.1, irregular %.1f %%\n",
+                triangles, quads, quads ? sj_sum / double(quads) : 1.0, under_01,
+                interior ? 100.0 * double(irregular) / double(interior) : 0.0);
+    std::printf("worst scaled Jacobian %.2e at seed %llu (%s)\n", worst.sj_min,
+                static_cast<unsigned long long>(worst.seed), worst.kind);
+    std::printf("%.1f us a triangle, slowest seed %llu (%zu triangles, %s): %.1f ms\n",
+                triangles ? 1e6 * seconds / double(triangles) : 0.0, static_cast<unsigned long long>(slowest.seed),
+                slowest.triangles, slowest.kind, 1e3 * slowest.seconds);
+  }
+};
+
+/// Converts first, first + 1, ... in a child until it is through, dies or hangs. Returns the seed to go on with.
+std::uint64_t run_child(std::uint64_t first, std::uint64_t last, Summary& summary) {
+  int ends[2];
+  if (pipe(ends) != 0) std::abort();
+  const pid_t child = fork();
+  if (child == 0) {
+    for (std::uint64_t seed = first; seed <= last; ++seed) {
+      const Report report = run_seed(seed);
+      if (write(ends[1], &report, sizeof report) != ssize_t(sizeof report)) _exit(1);
+    }
+    _exit(0);
+  }
+  close(ends[1]);
+  std::uint64_t next = first;
+  std::string problem;
+  while (next <= last && problem.empty()) {
+    pollfd wait{ends[0], POLLIN, 0};
+    if (poll(&wait, 1, kHangSeconds * 1000) == 0) {
+      kill(child, SIGKILL);
+      problem = "hang: more than " + std::to_string(kHangSeconds) + " s";
+      break;
+    }
+    Report report;
+    std::size_t have = 0;
+    while (have < sizeof report) {
+      const ssize_t got = read(ends[0], reinterpret_cast<char*>(&report) + have, sizeof report - have);
+      if (got <= 0) break;
+      have += std::size_t(got);
+    }
+    if (have < sizeof report) {
+      problem = "crash";
+    } else {
+      summary.add(report);
+      ++next;
+    }
+  }
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (problem.empty()) return next;
+  if (problem == "crash" && WIFSIGNALED(status)) problem += ": signal " + std::to_string(WTERMSIG(status));
+  const test::Domain domain = test::random_domain(next);
+  Report report;
+  report.seed = next;
+  report.triangles = domain.patch.triangles.size();
+  copy(report.kind, sizeof report.kind, domain.kind);
+  copy(report.problem, sizeof report.problem, problem);
+  summary.add(report);
+  return next + 1;
+}
+
+int dump_seed(std::uint64_t seed, const std::string& prefix) {
+  const test::Domain domain = test::random_domain(seed);
+  std::printf("seed %llu: %s, %zu triangles\n", static_cast<unsigned long long>(seed), domain.kind.c_str(),
+              domain.patch.triangles.size());
+  test::dump(domain.patch, prefix + "-in.msh");
+  try {
+    const QuadMesh mesh = convert(domain.patch);
+    test::dump(domain.patch, mesh, prefix + "-out.msh");
+    for (const std::string& line : test::broken_invariants(domain.patch, mesh)) std::printf("%s\n", line.c_str());
+  } catch (const std::exception& e) {
+    std::printf("exception: %s\n", e.what());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 4 && std::strcmp(argv[1], "--dump") == 0)
+    return dump_seed(std::strtoull(argv[2], nullptr, 10), argv[3]);
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: qmorph_campaign FIRST LAST | --dump SEED PREFIX\n");
+    return 2;
+  }
+  const std::uint64_t last = std::strtoull(argv[2], nullptr, 10);
+  Summary summary;
+  for (std::uint64_t next = std::strtoull(argv[1], nullptr, 10); next <= last;) next = run_child(next, last, summary);
+  summary.print();
+  return summary.failed ? 1 : 0;
+}

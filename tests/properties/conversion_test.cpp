@@ -1,0 +1,129 @@
+// The laws of the engine, on random domains. Re-run one seed with: qmorph_campaign SEED SEED
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <cstring>
+
+#include "qmorph/convert.hpp"
+#include "support/domains.hpp"
+#include "support/invariants.hpp"
+
+namespace {
+
+using qmorph::Patch;
+using qmorph::QuadMesh;
+using qmorph::test::Domain;
+using qmorph::test::random_domain;
+using qmorph::test::Rng;
+
+/// How many domains the long test takes; QMORPH_DOMAINS for more or fewer.
+std::uint64_t domain_count() {
+  const char* text = std::getenv("QMORPH_DOMAINS");
+  return text ? std::strtoull(text, nullptr, 10) : 1000;
+}
+
+/// What does not hold for the conversion of a patch; an exception is one line too.
+std::vector<std::string> broken_conversion(const Patch& patch, QuadMesh* result = nullptr) {
+  try {
+    QuadMesh mesh = qmorph::convert(patch);
+    auto broken = qmorph::test::broken_invariants(patch, mesh);
+    const auto regions = qmorph::test::count_regions(patch);
+    if (mesh.stats.regions != regions.regions || mesh.stats.odd_regions != regions.odd)
+      broken.push_back("stats: regions " + std::to_string(mesh.stats.regions) + ", odd " +
+                       std::to_string(mesh.stats.odd_regions) + "; they are " + std::to_string(regions.regions) +
+                       " and " + std::to_string(regions.odd));
+    if (result) *result = std::move(mesh);
+    return broken;
+  } catch (const std::exception& e) {
+    return {std::string("exception: ") + e.what()};
+  }
+}
+
+bool same_topology(const QuadMesh& a, const QuadMesh& b) {
+  return a.quads == b.quads && a.triangles == b.triangles && a.source == b.source;
+}
+
+bool same_bytes(const QuadMesh& a, const QuadMesh& b) {
+  return same_topology(a, b) && a.points.size() == b.points.size() &&
+         std::memcmp(a.points.data(), b.points.data(), sizeof(Eigen::Vector3d) * a.points.size()) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("1000 random domains convert without breaking an invariant") {
+  for (std::uint64_t seed = 0; seed < domain_count(); ++seed) {
+    const Domain domain = random_domain(seed);
+    const auto broken = broken_conversion(domain.patch);
+    if (broken.empty()) continue;
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    FAIL_CHECK(broken.front());
+  }
+}
+
+TEST_CASE("random domains: two conversions of one patch are the same, byte for byte") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Patch patch = random_domain(seed).patch;
+    QuadMesh first, second;
+    const auto broken = broken_conversion(patch, &first);
+    if (!broken.empty()) continue;  // said by the test above
+    broken_conversion(random_domain(seed + 1).patch);  // what comes between leaves no trace
+    broken_conversion(patch, &second);
+    CAPTURE(seed);
+    CHECK(same_bytes(first, second));
+  }
+}
+
+TEST_CASE("random domains: steps that are checked one by one give the same mesh") {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Patch patch = random_domain(seed).patch;
+    QuadMesh plain;
+    if (patch.triangles.size() > 400 || !broken_conversion(patch, &plain).empty()) continue;
+    CAPTURE(seed);
+    qmorph::Options options;
+    options.check_each_step = true;
+    CHECK(same_bytes(plain, qmorph::convert(patch, options)));
+  }
+}
+
+TEST_CASE("random domains: a power of two in scale changes no decision") {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const Patch patch = random_domain(seed).patch;
+    QuadMesh plain, scaled;
+    if (!broken_conversion(patch, &plain).empty()) continue;
+    for (const double scale : {0x1p-30, 0.5, 0x1p30}) {
+      CAPTURE(seed);
+      CAPTURE(scale);
+      const auto broken = broken_conversion(
+          qmorph::test::moved(patch, scale, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()), &scaled);
+      CHECK_MESSAGE(broken.empty(), broken.front());
+      CHECK(same_topology(plain, scaled));
+    }
+  }
+}
+
+TEST_CASE("random domains: moved, turned, turned over or renumbered, the laws hold all the same") {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const Domain domain = random_domain(seed);
+    Rng rng(~seed);
+    const Eigen::Matrix3d still = Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    const double size = (domain.patch.points.back() - domain.patch.points.front()).norm();
+    const Eigen::Vector3d shift = size * Eigen::Vector3d(rng.between(-3, 3), rng.between(-3, 3), rng.between(-3, 3));
+    const std::pair<std::string, Patch> variants[] = {
+        {"shifted", qmorph::test::moved(domain.patch, 1, still, shift)},
+        {"turned", qmorph::test::moved(domain.patch, 1, qmorph::test::random_rotation(rng), origin)},
+        {"scaled", qmorph::test::moved(domain.patch, rng.between(0.1, 10), still, origin)},
+        {"turned over", qmorph::test::turned_over(domain.patch)},
+        {"renumbered", qmorph::test::renumbered(domain.patch, rng)},
+    };
+    for (const auto& [variant, patch] : variants) {
+      const auto broken = broken_conversion(patch);
+      if (broken.empty()) continue;
+      CAPTURE(seed);
+      CAPTURE(domain.kind);
+      CAPTURE(variant);
+      FAIL_CHECK(broken.front());
+    }
+  }
+}

@@ -1,0 +1,35 @@
+#pragma once
+/// The invariants of design section 2 for one surface, checked without a line of the engine.
+
+#include <string>
+#include <vector>
+
+#include "qmorph/patch.hpp"
+
+namespace qmorph::test {
+
+/// What of I1 to I6 does not hold: "rule: where", empty if all is well. The rules, by the words that a line begins with:
+///   malformed    arrays that do not fit, numbers out of range, coordinates that are not finite
+///   source       kept nodes of the input in its order, then new ones
+///   fixed node   boundary nodes, constraint nodes, fixed nodes, nodes of kept quads: there, bit for bit        (I1, I2)
+///   boundary     the same edges, in the same direction                                                         (I1)
+///   constraint   an edge of the result                                                                         (I2)
+///   kept quad    `Patch::quads` come first, as they were
+///   conformity   an edge with three elements, or two on one side of it; a node or element twice; unused nodes  (I3)
+///   orientation  an element with a corner that is not strictly convex, seen along the input's normal           (I4)
+///   parity       more than one triangle in a region, one in an even region                                     (I5)
+///   area         not the input's to 1e-9; a node off the plane                                                 (I6)
+std::vector<std::string> broken_invariants(const Patch& in, const QuadMesh& out);
+
+/// Regions (triangles joined through edges that are no constraints), and how many have an odd number of boundary sides.
+struct RegionCount {
+  std::size_t regions = 0, odd = 0;
+};
+RegionCount count_regions(const Patch& patch);
+
+/// Twice the vector area of the elements.
+Eigen::Vector3d area_vector(const std::vector<Eigen::Vector3d>& points,
+                            const std::vector<std::array<Index, 3>>& triangles,
+                            const std::vector<std::array<Index, 4>>& quads);
+
+}  // namespace qmorph::test
