@@ -2,9 +2,11 @@
 
 #include <chrono>
 
+#include "elimination/eliminate.hpp"
 #include "engine/regions.hpp"
 #include "front/morph.hpp"
 #include "kernel/mesh.hpp"
+#include "smoothing/smooth.hpp"
 
 namespace qmorph {
 namespace {
@@ -106,6 +108,10 @@ kernel::Mesh convert_region(const Region& region, const Options& options, Conver
   stats.front_quads += count_faces(mesh, 4);
   stats.leftover_triangles += count_faces(mesh, 3);
   stats.front_seconds += watch.lap();
+  elimination::eliminate_triangles(mesh, options.smoothing);
+  stats.elimination_seconds += watch.lap();
+  smoothing::smooth(mesh, options.smoothing);
+  stats.smoothing_seconds += watch.lap();
   return mesh;
 }
 

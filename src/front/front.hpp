@@ -68,21 +68,8 @@ class Front {
     Index half_edge;
     unsigned stamp;
     bool operator>(const Entry& o) const {
-      static const int mode = getenv("MODE") ? atoi(getenv("MODE")) : 0;
-      if (mode == 1) {
-        if ((priority == 0) != (o.priority == 0)) return priority > o.priority;
-        if (level != o.level) return level > o.level;
-        if (priority != o.priority) return priority > o.priority;
-      }
-      if (mode == 2) {
-        if (level != o.level) return level > o.level;
-        if (priority != o.priority) return priority > o.priority;
-      }
-      if (mode == 3) {
-        if (level/2 != o.level/2) return level > o.level;
-      }
-      if (priority != o.priority) return priority > o.priority;
       if (level != o.level) return level > o.level;
+      if (priority != o.priority) return priority > o.priority;
       if (length != o.length) return length > o.length;
       return half_edge > o.half_edge;
     }

@@ -1,0 +1,203 @@
+#include "elimination/eliminate.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
+
+namespace qmorph::elimination {
+namespace {
+
+using kernel::Mesh;
+
+/// Rings of neighbours that may give way after a triangle has been passed.
+constexpr int kRings = 3;
+/// Partners that are tried for one triangle, nearest first.
+constexpr int kMostPartners = 12;
+
+std::vector<Index> triangles_of(const Mesh& mesh) {
+  std::vector<Index> triangles;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f) && mesh.degree(f) == 3) triangles.push_back(f);
+  return triangles;
+}
+
+/// Nodes of the quad that joining the triangles at h would make.
+std::vector<Index> joined(const Mesh& mesh, Index h) {
+  const Index t = Mesh::twin(h);
+  return {mesh.origin(h), mesh.target(mesh.next(t)), mesh.target(h), mesh.target(mesh.next(h))};
+}
+
+void pair_triangles(Mesh& mesh) {
+  struct Pair {
+    double quality;
+    Index half_edge;
+  };
+  std::vector<Pair> pairs;
+  for (Index f : triangles_of(mesh)) {
+    Index h = mesh.half_edge(f);
+    for (int i = 0; i < 3; ++i, h = mesh.next(h)) {
+      if (h > Mesh::twin(h) || !mesh.is_triangle(mesh.face(Mesh::twin(h)))) continue;
+      const double quality = topology::smallest_sine(mesh, joined(mesh, h));
+      if (quality > 0) pairs.push_back({quality, h});
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.quality != b.quality ? a.quality > b.quality : a.half_edge < b.half_edge;
+  });
+  for (const Pair& pair : pairs) {
+    const Index h = pair.half_edge;
+    if (!mesh.is_live_half_edge(h) || !mesh.is_triangle(mesh.face(h)) ||
+        !mesh.is_triangle(mesh.face(Mesh::twin(h))))
+      continue;
+    mesh.begin();
+    const Index f = mesh.face(mesh.join_faces(h));
+    if (mesh.is_valid_face(f))
+      mesh.commit();
+    else
+      mesh.rollback();
+  }
+}
+
+/// Breadth-first search over faces, from one triangle to others.
+class Search {
+ public:
+  explicit Search(const Mesh& mesh) : mesh_(mesh), came_by_(mesh.face_slots(), kNone) {}
+
+  /// Half-edges to cross, one after another, from `start` to the triangle that `skip` + 1 searches would find.
+  /// Empty when there is none.
+  std::vector<Index> path_to_triangle(Index start, int skip) {
+    if (came_by_.size() < mesh_.face_slots()) came_by_.resize(mesh_.face_slots(), kNone);
+    std::vector<Index> visited{start}, path;
+    came_by_[start] = mesh_.half_edge(start);
+    for (std::size_t i = 0; i < visited.size() && path.empty(); ++i) {
+      const Index first = mesh_.half_edge(visited[i]);
+      Index h = first;
+      do {
+        const Index beyond = mesh_.face(Mesh::twin(h));
+        if (beyond != kNone && came_by_[beyond] == kNone) {
+          came_by_[beyond] = h;
+          visited.push_back(beyond);
+          if (mesh_.is_triangle(beyond) && skip-- == 0) {
+            path = trace(start, beyond);
+            break;
+          }
+        }
+        h = mesh_.next(h);
+      } while (h != first);
+    }
+    for (Index f : visited) came_by_[f] = kNone;
+    return path;
+  }
+
+ private:
+  std::vector<Index> trace(Index start, Index end) const {
+    std::vector<Index> path;
+    for (Index f = end; f != start; f = mesh_.face(came_by_[f])) path.push_back(came_by_[f]);
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  const Mesh& mesh_;
+  std::vector<Index> came_by_;
+};
+
+std::vector<Index> nodes_of(const Mesh& mesh, Index f) {
+  std::vector<Index> nodes;
+  const Index start = mesh.half_edge(f);
+  Index h = start;
+  do {
+    nodes.push_back(mesh.origin(h));
+    h = mesh.next(h);
+  } while (h != start);
+  return nodes;
+}
+
+/// The five-sided face of `exit` is cut so that a triangle lies at `exit`, the better of two ways.
+void cut_triangle_at(Mesh& mesh, Index exit) {
+  const auto node = [&](Index h) { return mesh.origin(h); };
+  const Index before = mesh.prev(exit), after = mesh.next(exit);
+  const Index across = mesh.next(after), last = mesh.next(across);  // exit, after, across, last = before's prev
+  (void)last;
+  // Corners: exit runs a -> b, after b -> c, across c -> d, then d -> e (before's start), before e -> a.
+  const Index a = node(exit), b = node(after), c = node(across), d = mesh.target(across),
+              e = node(before);
+  const double first = std::min(topology::smallest_sine(mesh, {e, a, b}),
+                                topology::smallest_sine(mesh, {b, c, d, e}));
+  const double second = std::min(topology::smallest_sine(mesh, {a, b, c}),
+                                 topology::smallest_sine(mesh, {c, d, e, a}));
+  if (first > second)
+    mesh.split_face(before, after);
+  else
+    mesh.split_face(exit, across);
+}
+
+/// Passes the triangle behind path[0] along the path to the triangle at its end. Nodes on the way
+/// are collected in `nodes`. False if two faces on the way share more than one edge.
+bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::vector<Index>& nodes) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Index h = path[i], f = mesh.face(h), g = mesh.face(Mesh::twin(h));
+    if (f == kNone || g == kNone || f == g || !mesh.is_triangle(f)) return false;
+    for (Index face : {f, g})
+      for (Index v : nodes_of(mesh, face)) nodes.push_back(v);
+    int shared = 0;
+    Index e = mesh.half_edge(f);
+    for (int k = 0; k < 3; ++k, e = mesh.next(e)) shared += mesh.face(Mesh::twin(e)) == g;
+    if (shared != 1) return false;
+    mesh.join_faces(h);
+    if (i + 1 < path.size()) cut_triangle_at(mesh, path[i + 1]);
+  }
+  return true;
+}
+
+bool all_valid_around(const Mesh& mesh, const std::vector<Index>& nodes) {
+  for (Index v : nodes)
+    if (mesh.is_live_vertex(v) && !mesh.is_valid_star(v)) return false;
+  return true;
+}
+
+/// One triangle to one partner, in a transaction.
+bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& path) {
+  std::vector<Index> nodes;
+  mesh.begin();
+  bool done = pass_along(mesh, path, nodes);
+  if (done) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    topology::remove_doublets(mesh, nodes);
+    std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
+    smoothing::smooth_near(mesh, smoothing, nodes, kRings);
+    done = all_valid_around(mesh, nodes);
+  }
+  done ? mesh.commit() : mesh.rollback();
+  return done;
+}
+
+}  // namespace
+
+std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
+  pair_triangles(mesh);
+  Search search(mesh);
+  SmoothingOptions thorough = smoothing;
+  thorough.iterations = std::max(smoothing.iterations, 20);
+  for (bool progress = true; progress;) {
+    progress = false;
+    const std::vector<Index> triangles = triangles_of(mesh);
+    if (triangles.size() < 2) return triangles.size();
+    for (Index f : triangles) {
+      if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
+      for (int skip = 0; skip < kMostPartners; ++skip) {
+        const std::vector<Index> path = search.path_to_triangle(f, skip);
+        if (path.empty()) break;
+        if (try_path(mesh, thorough, path)) {
+          progress = true;
+          break;
+        }
+      }
+    }
+  }
+  return triangles_of(mesh).size();
+}
+
+}  // namespace qmorph::elimination

@@ -1,0 +1,24 @@
+#pragma once
+/// The shape energy of the elements around a node, as a function of where the node is.
+///
+/// At a corner with edges e1, e2 the energy is mu = (|e1|^2 + |e2|^2) / (2 e1 x e2): 1 for the corner of a square, the
+/// inverse of the mean ratio of its two edges, growing without bound where the corner closes or turns over
+/// [Knupp01]. The sum of mu^2 punishes the worst corners most. It is smooth, so one Newton step each pass is enough.
+
+#include "kernel/mesh.hpp"
+
+namespace qmorph::smoothing {
+
+struct Energy {
+  bool finite = true;  ///< false if a corner is not strictly convex
+  double value = 0;
+  Vec2 gradient = Vec2::Zero();
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+};
+
+/// Energy of the corners whose shape depends on v, with derivatives with respect to v.
+Energy energy_around(const kernel::Mesh& mesh, Index v);
+/// The same, value only, as if v were at p.
+Energy energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p);
+
+}  // namespace qmorph::smoothing

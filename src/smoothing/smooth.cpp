@@ -1,0 +1,143 @@
+#include "smoothing/smooth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "smoothing/node_energy.hpp"
+#include "smoothing/untangle.hpp"
+
+namespace qmorph::smoothing {
+namespace {
+
+/// Sum of a node's edge lengths over their number.
+double mean_edge(const kernel::Mesh& mesh, Index v) {
+  double sum = 0;
+  int edges = 0;
+  Index h = mesh.out(v);
+  do {
+    sum += mesh.length(h), ++edges;
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return sum / edges;
+}
+
+/// Newton's direction where the energy is convex, else downhill by a fraction of the edge length.
+Vec2 direction(const Energy& energy, double edge) {
+  const auto& h = energy.hessian;
+  const double determinant = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
+  if (h(0, 0) > 0 && determinant > 0) {
+    const Vec2 g = energy.gradient;
+    return {-(h(1, 1) * g.x() - h(0, 1) * g.y()) / determinant,
+            -(h(0, 0) * g.y() - h(1, 0) * g.x()) / determinant};
+  }
+  constexpr double kDownhill = 0.1;
+  const double length = energy.gradient.norm();
+  return length > 0 ? Vec2(-energy.gradient * (kDownhill * edge / length)) : Vec2::Zero();
+}
+
+bool is_movable(const kernel::Mesh& mesh, Index v) {
+  return mesh.is_live_vertex(v) && !mesh.is_fixed(v) && !mesh.is_boundary(v);
+}
+
+/// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
+class Passes {
+ public:
+  Passes(kernel::Mesh& mesh, const SmoothingOptions& options)
+      : mesh_(mesh), options_(options), active_(mesh.vertex_slots(), 1) {}
+
+  void run(const std::vector<Index>& nodes) {
+    for (int pass = 0; pass < options_.iterations; ++pass) {
+      bool any = false;
+      for (Index v : nodes) {
+        if (!active_[v]) continue;
+        active_[v] = 0;
+        const double moved = relax_node(mesh_, v);
+        if (moved <= options_.move_tolerance) continue;
+        any = true;
+        wake_around(v);
+      }
+      if (!any) break;
+    }
+    for (int pass = 0; pass < kRepairPasses; ++pass)
+      for (Index v : nodes)
+        if (smallest_sine_around(mesh_, v) < options_.target_quality) raise_smallest_sine(mesh_, v);
+  }
+
+ private:
+  static constexpr int kRepairPasses = 2;
+
+  void wake_around(Index v) {
+    active_[v] = 1;
+    Index h = mesh_.out(v);
+    do {
+      active_[mesh_.target(h)] = 1;
+      if (mesh_.face(h) != kNone) active_[mesh_.target(mesh_.next(h))] = 1;
+      h = mesh_.rotate_ccw(h);
+    } while (h != mesh_.out(v));
+  }
+
+  kernel::Mesh& mesh_;
+  const SmoothingOptions& options_;
+  std::vector<char> active_;
+};
+
+}  // namespace
+
+double relax_node(kernel::Mesh& mesh, Index v) {
+  if (!is_movable(mesh, v)) return 0;
+  const double edge = mean_edge(mesh, v);
+  Energy energy = energy_around(mesh, v);
+  if (!energy.finite) {
+    const Vec2 before = mesh.point(v);
+    untangle_node(mesh, v);
+    return (mesh.point(v) - before).norm() / edge;
+  }
+  const Vec2 start = mesh.point(v), step = direction(energy, edge);
+  constexpr int kHalvings = 4;
+  double share = 1;
+  for (int i = 0; i < kHalvings; ++i, share /= 2) {
+    const Vec2 p = start + share * step;
+    const Energy there = energy_at(mesh, v, p);
+    if (!there.finite || !(there.value < energy.value)) continue;
+    mesh.set_point(v, p);
+    if (mesh.is_valid_star(v)) return share * step.norm() / edge;
+    mesh.set_point(v, start);
+  }
+  return 0;
+}
+
+void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
+  std::vector<Index> nodes;
+  for (Index v = 0; v < mesh.vertex_slots(); ++v)
+    if (is_movable(mesh, v)) nodes.push_back(v);
+  Passes(mesh, options).run(nodes);
+}
+
+void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
+                 int rings) {
+  std::vector<Index> around(nodes.begin(), nodes.end());
+  for (int ring = 0; ring <= rings; ++ring) {
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    if (ring == rings) break;
+    const std::size_t count = around.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      Index h = mesh.out(around[i]);
+      do {
+        around.push_back(mesh.target(h));
+        if (mesh.face(h) != kNone) around.push_back(mesh.target(mesh.next(h)));
+        h = mesh.rotate_ccw(h);
+      } while (h != mesh.out(around[i]));
+    }
+  }
+  std::erase_if(around, [&](Index v) { return !is_movable(mesh, v); });
+  for (int pass = 0; pass < options.iterations; ++pass) {
+    double moved = 0;
+    for (Index v : around) moved = std::max(moved, relax_node(mesh, v));
+    if (moved < options.move_tolerance) break;
+  }
+  for (Index v : around)
+    if (smallest_sine_around(mesh, v) < options.target_quality) raise_smallest_sine(mesh, v);
+}
+
+}  // namespace qmorph::smoothing

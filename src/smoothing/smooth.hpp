@@ -1,0 +1,23 @@
+#pragma once
+/// Smoothing and repair: nodes move, the topology stays.
+
+#include <span>
+
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::smoothing {
+
+/// Smooths every node that is free. No element that is valid becomes invalid; elements that are not are untangled
+/// where moving nodes can do it. Cost: linear; later passes visit only nodes near one that moved.
+void smooth(kernel::Mesh& mesh, const SmoothingOptions& options);
+
+/// The same for a few nodes and `rings` rings of neighbours around them.
+void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
+                 int rings);
+
+/// One Newton step of the shape energy at v, shortened until the energy falls. Returns how far v moved,
+/// relative to its mean edge length; 0 if v is fixed.
+double relax_node(kernel::Mesh& mesh, Index v);
+
+}  // namespace qmorph::smoothing

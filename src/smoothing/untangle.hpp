@@ -1,0 +1,19 @@
+#pragma once
+#include "kernel/mesh.hpp"
+
+namespace qmorph::smoothing {
+
+/// Moves v to where the smallest corner area (cross product of a corner's edges) around it is largest. Each
+/// such area is a linear function of v, so this is a linear program with one solution, and if any position
+/// of v makes all corners convex that depend on it, the result does. [FreitagPlassmann00]
+/// Returns false if v is fixed or on the boundary, or if nothing better was found.
+bool untangle_node(kernel::Mesh& mesh, Index v);
+
+/// Moves v to raise the smallest corner sine around it (its neighbours' corners included); compass search.
+/// Never makes the smallest sine smaller. Returns true if v moved.
+bool raise_smallest_sine(kernel::Mesh& mesh, Index v);
+
+/// Smallest corner sine of the faces around v.
+double smallest_sine_around(const kernel::Mesh& mesh, Index v);
+
+}  // namespace qmorph::smoothing
