@@ -50,13 +50,13 @@ void write(const Request& request, const adapter::OutputPlan& plan, const adapte
 }
 
 /// What the caller must know in any case, in one line.
-void tell_outcome(const ModelReport& model, std::ostream& err) {
+void print_outcome(const ModelReport& model, std::ostream& err) {
   std::string left;
   for (const SurfaceReport& surface : model.surfaces)
     if (surface.outcome == SurfaceOutcome::kLeft) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
   if (!left.empty())
-    err << fmt::format("qmorph: converted in part; left as they were: {} of {} surfaces: {}\n",
-                       model.count(SurfaceOutcome::kLeft), model.surfaces.size(), left);
+    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::kLeft),
+                       model.surfaces.size(), left);
   else if (model.count(SurfaceOutcome::kConverted) == 0)
     err << "qmorph: nothing to convert: all surfaces are quads already\n";
 }
@@ -74,7 +74,7 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
     }
     err << report::total_line(model, seconds) << '\n';
   }
-  tell_outcome(model, err);
+  print_outcome(model, err);
 }
 
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
@@ -107,8 +107,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
 }
 
 int fail(int status, std::string_view what, std::ostream& err) {
-  err << "qmorph: " << what << '\n';
-  if (status == kBadUsage) err << "qmorph: try qmorph --help\n";
+  err << "qmorph: " << what << (status == kBadUsage ? " (see qmorph --help)" : "") << '\n';
   return status;
 }
 

@@ -19,6 +19,9 @@ using Edge = std::pair<Index, Index>;
 /// Relative. Areas of a million elements add up with an error of about 1e-13; a hole of one element shows at 1e-7.
 constexpr double kAreaTolerance = 1e-9;
 
+/// The sine of a corner of 180 degrees, up to rounding: more than that is a corner.
+constexpr double kLeastCornerSine = 1e-10;
+
 std::string at(const Eigen::Vector3d& p) { return fmt::format("at ({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
 
 /// Twice the area vector of a polygon, seen from its first corner.
@@ -46,7 +49,8 @@ std::string find_bad_corner(const QuadMesh& mesh, std::span<const std::array<Ind
       const Eigen::Vector3d& p = mesh.points[element[k]];
       const Eigen::Vector3d ahead = mesh.points[element[(k + 1) % N]] - p;
       const Eigen::Vector3d behind = mesh.points[element[(k + N - 1) % N]] - p;
-      if (!(ahead.cross(behind).dot(normal) > 0))  // false for NaN too
+      // The comparison is false for NaN, too.
+      if (!(ahead.cross(behind).dot(normal) > kLeastCornerSine * ahead.norm() * behind.norm()))
         return "an element has a corner that is not convex " + at(p);
     }
   return {};
