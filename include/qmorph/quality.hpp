@@ -4,8 +4,8 @@
 /// Sources, by the names that the comments below use:
 /// [Verdict]  C. Stimpson, C. Ernst, P. Knupp, P. Pebay, D. Thompson: The Verdict Library Reference Manual,
 ///            SAND2007-2853P. A quad is acceptable from scaled Jacobian 0.3 and angles of 45 to 135 degrees.
-/// [Gmsh]     eta of a quad, `Mesh.RecombineMinimumQuality` in the Gmsh reference manual; Remacle et al., "Blossom-Quad",
-///            IJNME 89 (2012), eq. 6.
+/// [Gmsh]     `Mesh.RecombineMinimumQuality` in the Gmsh reference manual; Remacle et al., "Blossom-Quad", IJNME 89
+///            (2012), eq. 6.
 /// [thesis]   reference/q-morph-thesis.md, eq. 2.2 with the factor 4 of section 3.7; glossary for the valence.
 
 #include <Eigen/Core>
@@ -25,25 +25,23 @@ struct Quality {
   std::size_t triangles = 0;
   std::size_t inverted = 0;  ///< elements, triangles too, with a corner whose Jacobian is not positive
   double scaled_jacobian_min = 1, scaled_jacobian_p1 = 1, scaled_jacobian_p5 = 1, scaled_jacobian_mean = 1;
-  double scaled_jacobian_below_03 = 0;   ///< share of quads under 0.3
+  double scaled_jacobian_below_03 = 0;  ///< share of quads under 0.3
   double eta_min = 1, eta_mean = 1;
   double thesis_min = 1, thesis_mean = 1;
   double angle_min_deg = 90, angle_max_deg = 90;
-  std::size_t interior_nodes = 0;           ///< nodes on no edge that has one element only
-  std::size_t irregular_nodes = 0;          ///< interior nodes whose valence is not 4
-  std::map<int, std::size_t> valence;       ///< interior nodes by number of edges
+  std::size_t interior_nodes = 0;               ///< nodes on no edge that has one element only
+  std::size_t irregular_nodes = 0;              ///< interior nodes whose valence is not 4
+  std::map<int, std::size_t> valence;           ///< interior nodes by number of edges
   std::map<int, std::size_t> boundary_valence;  ///< boundary nodes by `boundary_valence()`
-  double irregular_share() const {
-    return interior_nodes ? double(irregular_nodes) / double(interior_nodes) : 0.0;
-  }
+  double irregular_share() const { return interior_nodes ? double(irregular_nodes) / double(interior_nodes) : 0.0; }
 };
 
 using QuadCorners = std::array<Eigen::Vector3d, 4>;
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
 /// Scaled Jacobian of a quad in the plane with unit normal `normal`: the smallest over its corners of the sine of the
-/// corner angle, signed [Verdict]. 1 for rectangles, 0 for a corner of 180 degrees or two corners at one place, negative for
-/// a reflex corner. -1 where a coordinate is NaN.
+/// corner angle, signed [Verdict]. 1 for rectangles, 0 for a corner of 180 degrees or two corners at one place,
+/// negative for a reflex corner. -1 where a coordinate is NaN.
 double scaled_jacobian(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
 /// The same for a triangle: the sine of its smallest angle, negative if it is inverted. At most sin 60 degrees.
@@ -55,24 +53,24 @@ std::array<double, 4> corner_angles_deg(const QuadCorners& corners, const Eigen:
 /// max(0, 1 - max |90 - angle| / 90) [Gmsh].
 double eta(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
-/// The smallest metric of the four triangles that the two diagonals make, less 1 if two of them are inverted or a corner is
-/// under 6 degrees, less 2 for three, less 3 for four [thesis]. 1 for a square.
+/// The smallest metric of the four triangles that the two diagonals make, less 1 if two of them are inverted or a
+/// corner is under 6 degrees, less 2 for three, less 3 for four [thesis]. 1 for a square.
 double thesis_metric(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
 /// The valence that stands for a boundary node with `edges` edges and the interior angle `angle_deg`: two more
 /// up to 135 degrees, one more up to 225, else as it is [thesis, glossary].
 int boundary_valence(int edges, double angle_deg);
 
-/// Collects surfaces, then gives the figures of all of them together. The cost is linear in the number of elements; sums
-/// run in the order of the elements, so the figures are the same on every run.
+/// Collects surfaces, then gives the figures of all of them together. The cost is linear in the number of elements;
+/// sums run in the order of the elements, so the figures are the same on every run.
 class QualityAccumulator {
  public:
   /// Adds a surface. `normal` is the unit normal that its elements follow.
   void add(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
            std::span<const std::array<Index, 4>> quads, const Eigen::Vector3d& normal);
 
-  /// Adds a surface whose normal is not known: the mean normal if all elements lie in its plane, else (a curved surface)
-  /// for each element its own, so that an element of a curved surface can be a chevron but not upside down.
+  /// Adds a surface whose normal is not known: the mean normal if all elements lie in its plane, else (a curved
+  /// surface) for each element its own, so that an element of a curved surface can be a chevron but not upside down.
   void add(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
            std::span<const std::array<Index, 4>> quads);
 

@@ -32,7 +32,8 @@ struct QualityAccumulator::ElementNormals {
 
 namespace {
 
-/// A surface is flat if this share of its elements' area vectors is along the mean normal; judge.py has the same number.
+/// A surface is flat if this share of its elements' area vectors is along the mean normal; judge.py has the same
+/// number.
 constexpr double kFlatNormals = 1 - 1e-9;
 
 template <std::size_t N>
@@ -53,8 +54,9 @@ double percentile(std::vector<double>& values, double percent) {
   return std::lerp(low, high, rank - double(below));
 }
 
-/// Adds the interior angles of all elements to the angle of each node. A node at which two parts of the surface touch gets
-/// the sum of both parts, as it gets the edges of both. Reflex corners, which no valid element has, count as 360 - angle.
+/// Adds the interior angles of all elements to the angle of each node. A node at which two parts of the surface touch
+/// gets the sum of both parts, as it gets the edges of both. Reflex corners, which no valid element has, count as 360 -
+/// angle.
 template <std::size_t N>
 void add_corner_angles(std::span<const Vector3d> points, std::span<const std::array<Index, N>> elements,
                        const std::vector<std::uint8_t>& wanted, std::vector<double>& angles) {
@@ -88,8 +90,7 @@ void count_valences(std::span<const Vector3d> points, std::span<const std::array
 
 }  // namespace
 
-void QualityAccumulator::add_elements(std::span<const Vector3d> points,
-                                      std::span<const std::array<Index, 3>> triangles,
+void QualityAccumulator::add_elements(std::span<const Vector3d> points, std::span<const std::array<Index, 3>> triangles,
                                       std::span<const std::array<Index, 4>> quads, const ElementNormals& normals) {
   for (const auto& nodes : triangles) {
     const auto corners = corners_of(points, nodes);
@@ -136,7 +137,8 @@ void QualityAccumulator::add(std::span<const Vector3d> points, std::span<const s
   for (const Vector3d& area : areas) total += area;
   ElementNormals normals;
   if (total.norm() > 0) normals.common = total.normalized();
-  double lengths = 0, along = 0;  // an upside-down element of a plane is along its normal all the same
+  double lengths = 0,
+         along = 0;  // an upside-down element of a plane is along its normal all the same
   for (const Vector3d& area : areas) {
     lengths += area.norm();
     along += std::abs(area.dot(normals.common));

@@ -1,4 +1,5 @@
-// One function for each metric of a single element; the sheet of expected values is tests/quality/metric_sheet_test.cpp.
+// One function for each metric of a single element; the sheet of expected values is
+// tests/quality/metric_sheet_test.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,7 @@ double half_square_metric(const Vector3d& a, const Vector3d& b, const Vector3d& 
 
 }  // namespace
 
-double scaled_jacobian(const QuadCorners& corners, const Vector3d& normal) {
-  return smallest_sine(corners, normal);
-}
+double scaled_jacobian(const QuadCorners& corners, const Vector3d& normal) { return smallest_sine(corners, normal); }
 
 double scaled_jacobian(const TriangleCorners& corners, const Vector3d& normal) {
   return smallest_sine(corners, normal);

@@ -90,6 +90,6 @@ TEST_CASE("patches that are refused with SurfaceError") {
 
 TEST_CASE("a band that lies over itself is refused, one that does not is not") {
   CHECK(refusal(spiral(0.9, 0)) == "");
-  CHECK(refusal(spiral(1.5, 1.2)) == "");   // each turn outside the one before
+  CHECK(refusal(spiral(1.5, 1.2)) == "");  // each turn outside the one before
   CHECK(refusal(spiral(1.5, 0.5)) != "");
 }

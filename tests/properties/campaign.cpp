@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -68,10 +69,31 @@ Report run_seed(std::uint64_t seed) {
   return report;
 }
 
+/// A problem without its numbers and places, so that like ones are counted together.
+std::string cause_of(const std::string& problem) {
+  std::string cause;
+  for (const char c : problem.substr(0, problem.find('('))) {
+    const bool number = std::isdigit(static_cast<unsigned char>(c)) ||
+                        (!cause.empty() && cause.back() == '#' && (c == '.' || c == 'e' || c == '-'));
+    if (!number)
+      cause += c;
+    else if (cause.empty() || cause.back() != '#')
+      cause += '#';
+  }
+  return cause;
+}
+
+/// How often a cause occurred, and its smallest example.
+struct Cause {
+  std::size_t count = 0;
+  std::uint64_t seed = 0;
+  std::size_t triangles = 0;
+};
+
 /// Totals and the seeds that stand out.
 struct Summary {
   std::size_t seeds = 0, failed = 0, triangles = 0, quads = 0, interior = 0, irregular = 0;
-  std::map<std::string, std::size_t> causes;
+  std::map<std::string, Cause> causes;
   double seconds = 0, sj_sum = 0;
   Report worst, slowest;
   std::size_t under_01 = 0;
@@ -89,19 +111,26 @@ struct Summary {
     if (r.seconds > slowest.seconds) slowest = r;
     if (!r.problem[0]) return;
     ++failed;
-    const std::string problem = r.problem;
-    ++causes[problem.substr(0, problem.find_first_of(":("))];
+    Cause& cause = causes[cause_of(r.problem)];
+    if (++cause.count == 1 || r.triangles < cause.triangles) {
+      cause.seed = r.seed;
+      cause.triangles = r.triangles;
+    }
     std::printf("seed %llu (%zu triangles, %s): %s\n", static_cast<unsigned long long>(r.seed), r.triangles, r.kind,
                 r.problem);
     std::fflush(stdout);
   }
 
   void print() const {
-    std::printf("%zu seeds, %zu failed", seeds, failed);
-    for (const auto& [cause, count] : causes) std::printf(", %s %zu", cause.c_str(), count);
-    std::printf("\n%zu triangles to %zu quads, mean scaled Jacobian %.3f, %zu domains with one under 0.1, irregular %.1f %%\n",
-                triangles, quads, quads ? sj_sum / double(quads) : 1.0, under_01,
-                interior ? 100.0 * double(irregular) / double(interior) : 0.0);
+    std::printf("%zu seeds, %zu failed\n", seeds, failed);
+    for (const auto& [text, cause] : causes)
+      std::printf("%6zu  %s (smallest: seed %llu, %zu triangles)\n", cause.count, text.c_str(),
+                  static_cast<unsigned long long>(cause.seed), cause.triangles);
+    std::printf(
+        "%zu triangles to %zu quads, mean scaled Jacobian %.3f, irregular %.1f %%, %zu domains with an element "
+        "under 0.1\n",
+        triangles, quads, quads ? sj_sum / double(quads) : 1.0,
+        interior ? 100.0 * double(irregular) / double(interior) : 0.0, under_01);
     std::printf("worst scaled Jacobian %.2e at seed %llu (%s)\n", worst.sj_min,
                 static_cast<unsigned long long>(worst.seed), worst.kind);
     std::printf("%.1f us a triangle, slowest seed %llu (%zu triangles, %s): %.1f ms\n",
@@ -179,8 +208,7 @@ int dump_seed(std::uint64_t seed, const std::string& prefix) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::strcmp(argv[1], "--dump") == 0)
-    return dump_seed(std::strtoull(argv[2], nullptr, 10), argv[3]);
+  if (argc == 4 && std::strcmp(argv[1], "--dump") == 0) return dump_seed(std::strtoull(argv[2], nullptr, 10), argv[3]);
   if (argc != 3) {
     std::fprintf(stderr, "usage: qmorph_campaign FIRST LAST | --dump SEED PREFIX\n");
     return 2;

@@ -66,7 +66,7 @@ TEST_CASE("random domains: two conversions of one patch are the same, byte for b
     const Patch patch = random_domain(seed).patch;
     QuadMesh first, second;
     const auto broken = broken_conversion(patch, &first);
-    if (!broken.empty()) continue;  // said by the test above
+    if (!broken.empty()) continue;                     // said by the test above
     broken_conversion(random_domain(seed + 1).patch);  // what comes between leaves no trace
     broken_conversion(patch, &second);
     CAPTURE(seed);

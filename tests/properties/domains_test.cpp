@@ -27,7 +27,8 @@ TEST_CASE("random domains: a seed gives the same bytes each time") {
     CAPTURE(seed);
     const Domain a = random_domain(seed), b = random_domain(seed);
     REQUIRE(a.patch.points.size() == b.patch.points.size());
-    CHECK(std::memcmp(a.patch.points.data(), b.patch.points.data(), sizeof(Eigen::Vector3d) * a.patch.points.size()) == 0);
+    CHECK(std::memcmp(a.patch.points.data(), b.patch.points.data(), sizeof(Eigen::Vector3d) * a.patch.points.size()) ==
+          0);
     CHECK(a.patch.triangles == b.patch.triangles);
     CHECK(a.patch.constraints == b.patch.constraints);
   }
@@ -54,10 +55,10 @@ TEST_CASE("random domains: every difficulty occurs") {
     single += domain.patch.triangles.size() == 1;
     large += domain.patch.triangles.size() > 1000;
   }
-  for (const char* word : {"polygon", "plate", "wedge", "spikes", "ring", "comb", "channel", "graded", "pinched", "ribbon",
-                           "embedded", "materials", "island", "coarse", "lattice", "cloud", "strip", "fan", "wheel", "star",
-                           "flips", "jitter", "walks", "loop", "borders", "points", "quads", "upright", "tilted",
-                           "clockwise"}) {
+  for (const char* word : {"polygon", "plate",  "wedge",    "spikes",    "ring",   "comb",     "channel", "graded",
+                           "pinched", "ribbon", "embedded", "materials", "island", "coarse",   "lattice", "cloud",
+                           "strip",   "fan",    "wheel",    "star",      "flips",  "jitter",   "walks",   "loop",
+                           "borders", "points", "quads",    "upright",   "tilted", "clockwise"}) {
     CAPTURE(std::string(word));
     CHECK(words.contains(word));
   }

@@ -102,7 +102,8 @@ TEST_CASE("measure: an empty mesh and a mesh of triangles have no bad figures") 
 }
 
 TEST_CASE("accumulator: percentiles are numpy's, over all surfaces together") {
-  // Parallelograms of 1 to 41 degrees in two surfaces; p5 is rank 2 (3 degrees), p1 lies 0.4 of the way from the first to the second.
+  // Parallelograms of 1 to 41 degrees in two surfaces; p5 is rank 2 (3 degrees), p1 lies 0.4 of the way from the first
+  // to the second.
   qmorph::QualityAccumulator accumulator;
   const auto sine = [](double degrees) { return std::sin(degrees * 3.14159265358979323846 / 180); };
   for (int half = 0; half < 2; ++half) {
@@ -110,7 +111,8 @@ TEST_CASE("accumulator: percentiles are numpy's, over all surfaces together") {
     for (int degrees = 41 - half; degrees >= 1; degrees -= 2) {
       const auto first = qmorph::Index(mesh.points.size());
       const double s = sine(degrees), c = sine(90 - degrees), x = 3 * degrees;
-      for (const Vector3d& p : {Vector3d(x, 0, 0), Vector3d(x + 1, 0, 0), Vector3d(x + 1 + c, s, 0), Vector3d(x + c, s, 0)})
+      for (const Vector3d& p :
+           {Vector3d(x, 0, 0), Vector3d(x + 1, 0, 0), Vector3d(x + 1 + c, s, 0), Vector3d(x + c, s, 0)})
         mesh.points.push_back(p);
       mesh.quads.push_back({first, first + 1, first + 2, first + 3});
     }

@@ -1,4 +1,5 @@
-// The metric sheet: one element per row, what each metric says about it. Values by hand or from the closed form beside them.
+// The metric sheet: one element per row, what each metric says about it. Values by hand or from the closed form beside
+// them.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -44,7 +45,8 @@ const Row kSheet[] = {
     {"collapsed to a triangle, 180 degrees", quad(0, 0, 1, 0, 0.5, 0.5, 0, 1), 0, 0, 0, 45, 180},
     // Corners 2 and 3 at one place. Triangle 0-2-3 has no area, the angles at 2 and 3 are not defined.
     {"collapsed to a triangle, two nodes at one place", quad(0, 0, 1, 0, 0, 1, 0, 1), 0, 0, -1, 0, 90},
-    // Arrow head with its notch at corner 2: the sides there are (-1, 3)/4 and (3, -1)/4. Triangle 1-2-3 is upside down.
+    // Arrow head with its notch at corner 2: the sides there are (-1, 3)/4 and (3, -1)/4. Triangle 1-2-3 is upside
+    // down.
     {"chevron", quad(0, 0, 1, 0, 0.25, 0.25, 0, 1), -0.8, 0, 4 * -0.5 / (0.625 + 0.625 + 2),
      std::atan2(1.0, 3.0) * 180 / kPi, 360 - std::acos(-0.6) * 180 / kPi},
     {"inverted square", quad(0, 0, 0, 1, 1, 1, 1, 0), -1, 0, -4, 270, 270},

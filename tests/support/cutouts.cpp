@@ -78,7 +78,8 @@ std::vector<char> mask(Rng& rng, const Draft& draft) {
   for (int i = rng.range(0, 3); i > 0; --i) {
     const Vector2d on = low + extent * rng.between(0.05, 0.2), normal(rng.uniform(), rng.uniform());
     const bool upper = rng.chance(0.5);
-    remove_if([&](const Vector2d& p) { return normal.dot(upper ? Vector2d(low + high - p - on) : Vector2d(p - on)) < 0; });
+    remove_if(
+        [&](const Vector2d& p) { return normal.dot(upper ? Vector2d(low + high - p - on) : Vector2d(p - on)) < 0; });
   }
   if (rng.chance(0.3)) {  // worm-eaten: pinched everywhere, regions of a few triangles
     const double share = rng.between(0.02, 0.35);
@@ -114,7 +115,8 @@ std::optional<Draft> tiny_domain(Rng& rng, std::string& name) {
       for (int i = 0; i < size + 2; ++i)
         draft.points.emplace_back(0.5 * i + rng.between(-0.2, 0.2), (i % 2) + rng.between(-0.2, 0.2));
       for (Index i = 0; i < Index(size); ++i)
-        draft.triangles.push_back(i % 2 == 0 ? std::array<Index, 3>{i, i + 2, i + 1} : std::array<Index, 3>{i, i + 1, i + 2});
+        draft.triangles.push_back(i % 2 == 0 ? std::array<Index, 3>{i, i + 2, i + 1}
+                                             : std::array<Index, 3>{i, i + 1, i + 2});
       break;
     }
     case 1: {  // a fan around a corner, of 10 to 350 degrees

@@ -62,7 +62,9 @@ Patch posed(Patch patch, Rng& rng, std::string& kind) {
   const Vector3d shift = scale * Vector3d(rng.between(-10, 10), rng.between(-10, 10), rng.between(-10, 10));
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   switch (rng.below(4)) {
-    case 0: patch = moved(std::move(patch), scale, turn, Vector3d::Zero()); break;
+    case 0:
+      patch = moved(std::move(patch), scale, turn, Vector3d::Zero());
+      break;
     case 1:  // one of the planes of the axes
       turn << 0, 0, 1, 1, 0, 0, 0, 1, 0;
       if (rng.chance(0.5)) turn = Eigen::Matrix3d(turn * turn);

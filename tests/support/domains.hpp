@@ -16,8 +16,9 @@ struct Domain {
   Patch patch;
 };
 
-/// Between one and about 2500 triangles. Polygons with holes, sharp corners, thin gaps, strong grading, embedded lines and
-/// points, pinched nodes, several materials, existing quads; jittered, flipped, tilted, scaled, turned over, renumbered.
+/// Between one and about 2500 triangles. Polygons with holes, sharp corners, thin gaps, strong grading, embedded lines
+/// and points, pinched nodes, several materials, existing quads; jittered, flipped, tilted, scaled, turned over,
+/// renumbered.
 Domain random_domain(std::uint64_t seed);
 
 /// What is wrong with a patch as an input: one line each, with coordinates. Empty for every random domain.

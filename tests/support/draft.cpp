@@ -41,9 +41,8 @@ std::vector<DraftEdge> edges_of(const Draft& draft) {
       side.apex[from < to ? 0 : 1] = nodes[(i + 2) % 3];
       sides.push_back(side);
     }
-  std::sort(sides.begin(), sides.end(), [](const DraftEdge& l, const DraftEdge& r) {
-    return std::pair(l.a, l.b) < std::pair(r.a, r.b);
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const DraftEdge& l, const DraftEdge& r) { return std::pair(l.a, l.b) < std::pair(r.a, r.b); });
   std::vector<DraftEdge> edges;
   for (const DraftEdge& side : sides) {
     if (edges.empty() || edges.back().a != side.a || edges.back().b != side.b) {
@@ -62,8 +61,7 @@ std::vector<DraftEdge> edges_of(const Draft& draft) {
 std::vector<char> boundary_nodes(const Draft& draft) {
   std::map<std::pair<Index, Index>, int> elements;
   const auto count = [&](const auto& nodes) {
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      ++elements[std::minmax(nodes[i], nodes[(i + 1) % nodes.size()])];
+    for (std::size_t i = 0; i < nodes.size(); ++i) ++elements[std::minmax(nodes[i], nodes[(i + 1) % nodes.size()])];
   };
   for (const auto& t : draft.triangles) count(t);
   for (const auto& q : draft.quads) count(q);

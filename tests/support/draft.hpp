@@ -30,7 +30,7 @@ double smallest_sine(const std::array<Eigen::Vector2d, 4>& corners);
 
 /// One undirected edge of the triangles, with what lies on its two sides.
 struct DraftEdge {
-  Index a = kNone, b = kNone;                ///< a < b
+  Index a = kNone, b = kNone;                   ///< a < b
   std::array<Index, 2> triangle{kNone, kNone};  ///< [0] has a -> b, [1] has b -> a; kNone beyond the boundary
   std::array<Index, 2> apex{kNone, kNone};
   bool on_boundary() const { return triangle[0] == kNone || triangle[1] == kNone; }

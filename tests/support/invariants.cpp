@@ -156,7 +156,8 @@ std::size_t doubles(const std::vector<Vector3d>& points, double size) {
 
 void check_conformity(Case& c) {
   for_each_edge(c.out_sides, [&](auto first, auto last) {
-    if (last - first > 2) c.bad.add("conformity", last - first, " elements at the edge ", c.edge(first->low, first->high));
+    if (last - first > 2)
+      c.bad.add("conformity", last - first, " elements at the edge ", c.edge(first->low, first->high));
     if (last - first == 2 && first[0].forward == first[1].forward)
       c.bad.add("conformity", "two elements on one side of ", c.edge(first->low, first->high));
   });

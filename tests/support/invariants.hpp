@@ -8,17 +8,18 @@
 
 namespace qmorph::test {
 
-/// What of I1 to I6 does not hold: "rule: where", empty if all is well. The rules, by the words that a line begins with:
+/// What of I1 to I6 does not hold: "rule: where", empty if all is well. The rules, as a line begins with them:
+///
 ///   malformed    arrays that do not fit, numbers out of range, coordinates that are not finite
-///   source       kept nodes of the input in its order, then new ones
-///   fixed node   boundary nodes, constraint nodes, fixed nodes, nodes of kept quads: there, bit for bit        (I1, I2)
-///   boundary     the same edges, in the same direction                                                         (I1)
-///   constraint   an edge of the result                                                                         (I2)
-///   kept quad    `Patch::quads` come first, as they were
-///   conformity   an edge with three elements, or two on one side of it; a node or element twice; unused nodes  (I3)
-///   orientation  an element with a corner that is not strictly convex, seen along the input's normal           (I4)
-///   parity       more than one triangle in a region, one in an even region                                     (I5)
-///   area         not the input's to 1e-9; a node off the plane                                                 (I6)
+///   source       not: kept nodes of the input in its order, then new ones
+///   fixed node   one of the boundary, of a constraint, of a kept quad, or fixed, is gone or not the same bits (I1, I2)
+///   boundary     not the same edges in the same direction                                                     (I1)
+///   constraint   not an edge of the result                                                                    (I2)
+///   kept quad    `Patch::quads` do not come first, as they were
+///   conformity   an edge with three elements or two on one side; a node or element twice; an unused node      (I3)
+///   orientation  a corner that is not strictly convex, seen along the input's normal                          (I4)
+///   parity       more than one triangle in a region, or one in an even region                                 (I5)
+///   area         not the input's to 1e-9; a node off the plane                                                (I6)
 std::vector<std::string> broken_invariants(const Patch& in, const QuadMesh& out);
 
 /// Regions (triangles joined through edges that are no constraints), and how many have an odd number of boundary sides.

@@ -30,9 +30,15 @@ std::vector<Vector2d> box(double x0, double y0, double x1, double y1) {
 /// A hole of random form in the disk.
 void hole(Rng& rng, Sketch& sketch, const Vector2d& centre, double radius) {
   switch (rng.below(4)) {
-    case 0: sketch.path(around(rng, centre, radius, rng.range(8, 20), 1), kBoundary, true); break;
-    case 1: sketch.path(around(rng, centre, radius, rng.range(3, 4), 1), kBoundary, true); break;
-    case 2: sketch.path(around(rng, centre, radius, rng.range(4, 9), 0.3), kBoundary, true); break;
+    case 0:
+      sketch.path(around(rng, centre, radius, rng.range(8, 20), 1), kBoundary, true);
+      break;
+    case 1:
+      sketch.path(around(rng, centre, radius, rng.range(3, 4), 1), kBoundary, true);
+      break;
+    case 2:
+      sketch.path(around(rng, centre, radius, rng.range(4, 9), 0.3), kBoundary, true);
+      break;
     default: {  // a narrow slot
       const Vector2d half = polar(radius, rng.between(0, kPi)), side = 0.1 * Vector2d(-half.y(), half.x());
       sketch.path({centre - half - side, centre + half - side, centre + half + side, centre - half + side}, kBoundary,
@@ -84,7 +90,8 @@ void spikes(Rng& rng, Sketch& sketch) {
 void ring(Rng& rng, Sketch& sketch) {
   const double inner = rng.between(0.3, 0.9), gap = rng.between(0.01, 1) * (1 - inner);
   sketch.path(around(rng, {0, 0}, 1, rng.range(24, 48), 1), kBoundary, true);
-  sketch.path(around(rng, polar(1 - inner - gap, rng.between(0, 2 * kPi)), inner, rng.range(16, 40), 1), kBoundary, true);
+  sketch.path(around(rng, polar(1 - inner - gap, rng.between(0, 2 * kPi)), inner, rng.range(16, 40), 1), kBoundary,
+              true);
 }
 
 /// Teeth and gaps of random width.
@@ -109,8 +116,11 @@ void comb(Rng& rng, Sketch& sketch) {
 /// A thin body with a sharp tail in a channel, fine around it.
 void channel(Rng& rng, Sketch& sketch) {
   const double coarse = sketch.size.largest * rng.between(1.5, 3);
-  sketch.size = {.smallest = coarse / rng.between(5, 50), .largest = coarse, .growth = rng.between(0.1, 0.4),
-                 .from = {-0.5, 0}, .to = {rng.chance(0.5) ? -0.5 : 0.3, 0}};
+  sketch.size = {.smallest = coarse / rng.between(5, 50),
+                 .largest = coarse,
+                 .growth = rng.between(0.1, 0.4),
+                 .from = {-0.5, 0},
+                 .to = {rng.chance(0.5) ? -0.5 : 0.3, 0}};
   sketch.filling.pattern = Filling::kCells;
   sketch.path(box(-1.2, -0.8, 1.2, 0.8), kBoundary, true);
   std::vector<Vector2d> body;
@@ -190,9 +200,11 @@ void embedded(Rng& rng, Sketch& sketch) {
     const double thinnest = rng.between(0.3, 1);
     sketch.path(around(rng, {0.5, 0.5}, 0.4, corners, thinnest), kConstraint, true);
   }
-  if (rng.chance(0.6)) sketch.path({{0, -1}, {rng.between(0.05, 0.2), -0.6}, {0.1, rng.between(-0.3, -0.1)}}, kConstraint, false);
+  if (rng.chance(0.6))
+    sketch.path({{0, -1}, {rng.between(0.05, 0.2), -0.6}, {0.1, rng.between(-0.3, -0.1)}}, kConstraint, false);
   if (rng.chance(0.5)) {  // two lines that cross at a node
-    const Vector2d centre(0.5, -0.5), a = polar(rng.between(0.1, 0.38), rng.between(0, 3)), b = polar(0.3, rng.between(3.3, 6));
+    const Vector2d centre(0.5, -0.5), a = polar(rng.between(0.1, 0.38), rng.between(0, 3)),
+                                      b = polar(0.3, rng.between(3.3, 6));
     sketch.path({centre - a, centre, centre + a}, kConstraint, false);
     sketch.path({centre - b, centre, centre + b}, kConstraint, false);
   }
@@ -231,8 +243,8 @@ struct Kind {
   void (*draw)(Rng&, Sketch&);
 };
 constexpr Kind kKinds[] = {
-    {"polygon", polygon}, {"plate", plate},     {"wedge", wedge},     {"spikes", spikes},     {"ring", ring},
-    {"comb", comb},       {"channel", channel}, {"graded", graded},   {"pinched", pinched},   {"ribbon", ribbon},
+    {"polygon", polygon},   {"plate", plate},         {"wedge", wedge},   {"spikes", spikes},   {"ring", ring},
+    {"comb", comb},         {"channel", channel},     {"graded", graded}, {"pinched", pinched}, {"ribbon", ribbon},
     {"embedded", embedded}, {"materials", materials}, {"island", island},
 };
 

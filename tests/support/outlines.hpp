@@ -9,7 +9,8 @@
 
 namespace qmorph::test {
 
-/// Draws one, of a kind that the generator picks; the kind's name is put into `name`. Nothing if lines happened to cross.
+/// Draws one, of a kind that the generator picks; the kind's name is put into `name`. Nothing if lines happened to
+/// cross.
 std::optional<Draft> drawn_domain(Rng& rng, std::string& name);
 
 }  // namespace qmorph::test

@@ -13,9 +13,7 @@ constexpr double kLattice = 0x1p19;
 /// A filling keeps this share of the size away from nodes, and this one from lines.
 constexpr double kNodeDistance = 0.6, kLineDistance = 0.35;
 
-LatticePoint to_lattice(const Vector2d& p) {
-  return {std::llround(p.x() * kLattice), std::llround(p.y() * kLattice)};
-}
+LatticePoint to_lattice(const Vector2d& p) { return {std::llround(p.x() * kLattice), std::llround(p.y() * kLattice)}; }
 
 Vector2d to_plane(const LatticePoint& p) { return Vector2d(double(p.x), double(p.y)) / kLattice; }
 
@@ -113,8 +111,7 @@ void Sketch::fill(Rng& rng, std::vector<LatticePoint>& points) const {
     const Vector2d along(std::cos(filling.turn), std::sin(filling.turn)), up(-along.y(), along.x());
     const int rows = int(reach / (step * 0.866)) + 1;
     for (int j = -rows; j <= rows; ++j)
-      for (int i = -rows; i <= rows; ++i)
-        add((low + high) / 2 + step * ((i + 0.5 * (j & 1)) * along + 0.866 * j * up));
+      for (int i = -rows; i <= rows; ++i) add((low + high) / 2 + step * ((i + 0.5 * (j & 1)) * along + 0.866 * j * up));
   }
 }
 

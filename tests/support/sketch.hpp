@@ -14,7 +14,7 @@ namespace qmorph::test {
 /// How long edges should be, from place to place.
 struct SizeField {
   double smallest = 0.1, largest = 0.1;
-  double growth = 0;                       ///< length for length, away from the line from `from` to `to`
+  double growth = 0;  ///< length for length, away from the line from `from` to `to`
   Eigen::Vector2d from{0, 0}, to{0, 0};
   double at(const Eigen::Vector2d& p) const;
 };
@@ -22,8 +22,8 @@ struct SizeField {
 /// How the inside is filled.
 struct Filling {
   enum Pattern { kNothing, kCells, kRows } pattern = kRows;
-  double jitter = 0;       ///< share of the size
-  double turn = 0;         ///< of the rows, radians
+  double jitter = 0;  ///< share of the size
+  double turn = 0;    ///< of the rows, radians
 };
 
 /// Coordinates are about -1 to 1; they are rounded to a lattice of 2^-19, and nodes at one lattice point are one.

@@ -52,9 +52,8 @@ void jitter_nodes(Draft& draft, Rng& rng, double amount, double flattest) {
     Vector2d step = amount * nearest * Vector2d(rng.between(-1, 1), rng.between(-1, 1));
     for (int attempt = 0; attempt < 4; ++attempt, step /= 2) {
       draft.points[i] = home + step;
-      const bool good = std::all_of(at[i].begin(), at[i].end(), [&](Index t) {
-        return flatness_of(draft, draft.triangles[t]) >= worst;
-      });
+      const bool good = std::all_of(at[i].begin(), at[i].end(),
+                                    [&](Index t) { return flatness_of(draft, draft.triangles[t]) >= worst; });
       if (good) break;
       draft.points[i] = home;
     }
@@ -116,7 +115,8 @@ void add_constraint_loop(Draft& draft, Rng& rng) {
   auto known = constraint_set(draft);
   for (const DraftEdge& e : edges_of(draft)) {
     if (e.on_boundary()) continue;
-    if ((distance[e.triangle[0]] <= radius) != (distance[e.triangle[1]] <= radius)) add_constraint(draft, known, e.a, e.b);
+    if ((distance[e.triangle[0]] <= radius) != (distance[e.triangle[1]] <= radius))
+      add_constraint(draft, known, e.a, e.b);
   }
 }
 

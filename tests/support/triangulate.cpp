@@ -10,8 +10,7 @@ __extension__ typedef __int128 Wide;
 
 /// Positive if d is inside the circle through a, b, c (counter-clockwise).
 int in_circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c, const LatticePoint& d) {
-  const std::int64_t ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x,
-                     cy = c.y - d.y;
+  const std::int64_t ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
   const Wide value = Wide(ax * ax + ay * ay) * (bx * cy - by * cx) - Wide(bx * bx + by * by) * (ax * cy - ay * cx) +
                      Wide(cx * cx + cy * cy) * (ax * by - ay * bx);
   return (value > 0) - (value < 0);

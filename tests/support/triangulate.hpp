@@ -33,8 +33,8 @@ struct Triangulation {
 std::int64_t orient(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c);
 
 /// Triangulates all points, keeps what the kBoundary segments enclose (even-odd rule: holes and islands need no seed).
-/// A segment through a point is cut there. Nothing if two points are equal, two segments cross, or the boundary is open.
-std::optional<Triangulation> triangulate(const std::vector<LatticePoint>& points,
-                                         const std::vector<Segment>& segments);
+/// A segment through a point is cut there. Nothing if two points are equal, two segments cross, or the boundary is
+/// open.
+std::optional<Triangulation> triangulate(const std::vector<LatticePoint>& points, const std::vector<Segment>& segments);
 
 }  // namespace qmorph::test

@@ -28,7 +28,8 @@ int side_of(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 }
 
 /// Boundary edges that cross properly: every pair, these are small.
-void check_crossings(const Patch& patch, const std::vector<BoundaryEdge>& edges, const Vector3d& normal, Complaints& bad) {
+void check_crossings(const Patch& patch, const std::vector<BoundaryEdge>& edges, const Vector3d& normal,
+                     Complaints& bad) {
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
   std::vector<Vector2d> flat;
   for (const Vector3d& p : patch.points) flat.emplace_back(u.dot(p - patch.points[0]), v.dot(p - patch.points[0]));
