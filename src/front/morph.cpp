@@ -29,6 +29,7 @@ class Morph {
       for (Index base; (base = next_base()) != kNone;) {
         if (++steps_ > most_steps) return counts_;
         if (progress && steps_ % 4096 == 0) progress(double(steps_) / double(most_steps));
+        if(getenv("TRACE")&&steps_%5000==0) printf("step %zu level %u len %g at %g %g quads %zu seams %zu ts %zu tsp %zu aside %zu\n",steps_,front_.level(base),mesh_.length(base),mesh_.point(mesh_.origin(base)).x(),mesh_.point(mesh_.origin(base)).y(),counts_.quads,counts_.seams,counts_.transition_seams,counts_.transition_splits,counts_.set_aside);
         if (!advance(base)) set_aside(base);
         if (check_) check();
       }

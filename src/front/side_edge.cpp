@@ -24,6 +24,13 @@ Index split_triangles(Step& step, Index h, const Vec2& p) {
 namespace {
 
 constexpr double kAnyAngle = std::numbers::pi;
+/// A new side edge shorter than this times the input's edge length there would start a cascade of ever smaller
+/// elements in a pocket of the front; the pocket's triangles are better left to triangle elimination.
+constexpr double kShortestSide = 0.3;
+
+bool is_too_short(const Step& step, Index node, const Vec2& end) {
+  return (end - step.mesh.point(node)).norm() < kShortestSide * step.size[node];
+}
 
 struct Fan {
   Index best = kNone;         ///< interior edge of the fan nearest to the ideal direction
@@ -85,7 +92,9 @@ Index swap_for_side_edge(Step& step, const Corner& corner, const Taken& taken, I
 Index without_odd_loop(Step& step, Index side) {
   const Index node = step.mesh.origin(side), far = step.mesh.target(side);
   if (!step.colours.is_coloured(far) || step.colours.may_join(node, far)) return side;
-  split_triangles(step, side, 0.5 * (step.mesh.point(node) + step.mesh.point(far)));
+  const Vec2 middle = 0.5 * (step.mesh.point(node) + step.mesh.point(far));
+  if (is_too_short(step, node, middle)) return kNone;
+  split_triangles(step, side, middle);
   return side;
 }
 
@@ -103,8 +112,10 @@ Index define_side_edge(Step& step, const Corner& corner, const Taken& taken) {
   if (is_free) {
     if (const Index side = swap_for_side_edge(step, corner, taken, opposite); side != kNone)
       return side;
-    const Index m = split_triangles(step, opposite, ray_meets_edge(mesh, corner, opposite));
-    return mesh.find(mesh.origin(corner.outgoing), m);
+    const Index node = mesh.origin(corner.outgoing);
+    const Vec2 end = ray_meets_edge(mesh, corner, opposite);
+    if (is_too_short(step, node, end)) return kNone;
+    return mesh.find(node, split_triangles(step, opposite, end));
   }
   // A front edge is opposite: what is there is taken at any angle, the alternative is worse.
   return fan.best == kNone ? kNone : without_odd_loop(step, fan.best);
