@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/msh2_writer.hpp"
 #include "gmsh/session.hpp"
 #include "gmsh/staged_file.hpp"
 #include "qmorph/error.hpp"
@@ -130,6 +131,19 @@ bool has_groups() {
   return !groups.empty();
 }
 
+bool has_partitions() {
+  ::gmsh::vectorpair entities;
+  ::gmsh::model::getEntities(entities);
+  return std::any_of(entities.begin(), entities.end(), [](const auto& entity) {
+    return entity_type(entity.first, entity.second).rfind("Partition", 0) == 0;
+  });
+}
+
+/// Our own writer keeps the tags; it knows nothing of partitions.
+bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
+  return version == 2.2 && opened.msh.version >= 2 && opened.msh.version < 3 && !has_partitions();
+}
+
 void write_msh(const std::string& path, double version, bool everything) {
   const ScopedOption version_option("Mesh.MshFileVersion", version);
   if (!everything || !has_groups()) {
@@ -186,9 +200,12 @@ void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWis
   const bool keep_encoding = plan.format.is_msh && opened.msh.version != 0;
   const bool binary = wish.binary.value_or(keep_encoding ? opened.msh.binary : get_option("Mesh.Binary") != 0);
   const ScopedOption binary_option("Mesh.Binary", binary);
+  const double version = plan.format.is_msh ? choose_version(plan.format, opened, wish) : 0;
   const StageLog log = run_logged([&] {
-    if (plan.format.is_msh)
-      write_msh(file.path(), choose_version(plan.format, opened, wish), opened.msh.version != 0);
+    if (keeps_tags_of_msh2(version, opened))
+      write_msh2(file.path(), binary);
+    else if (plan.format.is_msh)
+      write_msh(file.path(), version, opened.msh.version != 0);
     else
       ::gmsh::write(file.path());
   });

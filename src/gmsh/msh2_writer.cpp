@@ -1,0 +1,187 @@
+#include "gmsh/msh2_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/model_mesh.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 20;
+
+/// Text and binary numbers on their way to a file.
+class Output {
+ public:
+  Output(const std::string& path, bool is_binary) : binary(is_binary), file_(path, std::ios::binary) {}
+
+  template <class... Arguments>
+  void text(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(buffer_), format, std::forward<Arguments>(arguments)...);
+    if (buffer_.size() > kBufferSize) flush();
+  }
+  template <class Number>
+  void raw(Number number) {
+    char bytes[sizeof number];
+    std::memcpy(bytes, &number, sizeof number);
+    buffer_.append(bytes, bytes + sizeof number);
+    if (buffer_.size() > kBufferSize) flush();
+  }
+  void close(const std::string& path) {
+    flush();
+    file_.close();
+    if (!file_) throw OutputError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+  }
+
+  const bool binary;
+
+ private:
+  void flush() {
+    file_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+  }
+  std::ofstream file_;
+  fmt::memory_buffer buffer_;
+};
+
+std::int32_t int32(std::size_t tag) {
+  if (tag > INT32_MAX) throw OutputError(fmt::format("MSH 2.2 has no room for the tag {}; use -format msh41", tag));
+  return static_cast<std::int32_t>(tag);
+}
+
+void write_header(Output& out) {
+  out.text("$MeshFormat\n2.2 {} {}\n", out.binary ? 1 : 0, sizeof(double));
+  if (out.binary) {
+    out.raw(std::int32_t{1});  // by which a reader sees the order of the bytes
+    out.text("\n");
+  }
+  out.text("$EndMeshFormat\n");
+}
+
+void write_group_names(Output& out) {
+  ::gmsh::vectorpair groups;
+  ::gmsh::model::getPhysicalGroups(groups);
+  std::vector<std::string> lines;
+  for (const auto& [dim, tag] : groups) {
+    std::string name;
+    ::gmsh::model::getPhysicalName(dim, tag, name);
+    if (!name.empty()) lines.push_back(fmt::format("{} {} \"{}\"\n", dim, tag, name));
+  }
+  if (lines.empty()) return;
+  out.text("$PhysicalNames\n{}\n", lines.size());
+  for (const std::string& line : lines) out.text("{}", line);
+  out.text("$EndPhysicalNames\n");
+}
+
+void write_nodes(Output& out, const ModelMesh& mesh) {
+  out.text("$Nodes\n{}\n", mesh.tags.size());
+  for (std::size_t row = 0; row < mesh.tags.size(); ++row) {
+    const Eigen::Vector3d& p = mesh.points[row];
+    if (out.binary) {
+      out.raw(int32(mesh.tags[row]));
+      for (const double coordinate : {p.x(), p.y(), p.z()}) out.raw(coordinate);
+    } else {
+      // The shortest digits that read back as the same number, which 16 digits are not always.
+      out.text("{} {} {} {}\n", mesh.tags[row], p.x(), p.y(), p.z());
+    }
+  }
+  out.text("{}$EndNodes\n", out.binary ? "\n" : "");
+}
+
+int group_of(const EntityMesh& entity) {
+  std::vector<int> groups;
+  ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
+  return groups.empty() ? 0 : groups.front();
+}
+
+void write_block(Output& out, const EntityMesh& entity, const ElementBlock& block) {
+  const int group = group_of(entity);
+  if (out.binary)
+    for (const std::size_t number : {static_cast<std::size_t>(block.type), block.tags.size(), std::size_t{2}})
+      out.raw(int32(number));
+  for (std::size_t e = 0; e < block.tags.size(); ++e) {
+    if (out.binary) {
+      out.raw(int32(block.tags[e]));
+      out.raw(std::int32_t{group});
+      out.raw(std::int32_t{entity.tag});
+    } else {
+      out.text("{} {} 2 {} {}", block.tags[e], block.type, group, entity.tag);
+    }
+    for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
+      const std::size_t node = block.nodes[e * block.nodes_per_element + k];
+      if (out.binary)
+        out.raw(int32(node));
+      else
+        out.text(" {}", node);
+    }
+    if (!out.binary) out.text("\n");
+  }
+}
+
+void write_elements(Output& out, const ModelMesh& mesh) {
+  std::size_t count = 0;
+  for (const EntityMesh& entity : mesh.entities) count += entity.element_count();
+  out.text("$Elements\n{}\n", count);
+  for (const EntityMesh& entity : mesh.entities)
+    for (const ElementBlock& block : entity.blocks) write_block(out, entity, block);
+  out.text("{}$EndElements\n", out.binary ? "\n" : "");
+}
+
+struct PeriodicLink {
+  int dim = 0, tag = 0, master = 0;
+  std::vector<double> transformation;
+  std::vector<std::pair<std::size_t, std::size_t>> nodes;
+};
+
+std::vector<PeriodicLink> find_periodic_links(const ModelMesh& mesh) {
+  std::vector<PeriodicLink> links;
+  for (const EntityMesh& entity : mesh.entities) {
+    PeriodicLink link{entity.dim, entity.tag, entity.tag, {}, {}};
+    std::vector<std::size_t> nodes, masters;
+    ::gmsh::model::mesh::getPeriodicNodes(link.dim, link.tag, link.master, nodes, masters, link.transformation,
+                                          true);
+    if (link.master == link.tag || nodes.size() != masters.size()) continue;
+    for (std::size_t i = 0; i < nodes.size(); ++i) link.nodes.emplace_back(nodes[i], masters[i]);
+    std::sort(link.nodes.begin(), link.nodes.end());  // Gmsh's order depends on where the nodes are in memory
+    links.push_back(std::move(link));
+  }
+  return links;
+}
+
+/// Text in binary files too, as Gmsh has it.
+void write_periodic(Output& out, const ModelMesh& mesh) {
+  const std::vector<PeriodicLink> links = find_periodic_links(mesh);
+  if (links.empty()) return;
+  out.text("$Periodic\n{}\n", links.size());
+  for (const PeriodicLink& link : links) {
+    out.text("{} {} {}\n", link.dim, link.tag, link.master);
+    if (!link.transformation.empty()) out.text("Affine {}\n", fmt::join(link.transformation, " "));
+    out.text("{}\n", link.nodes.size());
+    for (const auto& [node, master] : link.nodes) out.text("{} {}\n", node, master);
+  }
+  out.text("$EndPeriodic\n");
+}
+
+}  // namespace
+
+void write_msh2(const std::string& path, bool binary) {
+  const ModelMesh mesh = read_model_mesh();
+  Output out(path, binary);
+  write_header(out);
+  write_group_names(out);
+  write_nodes(out, mesh);
+  write_elements(out, mesh);
+  write_periodic(out, mesh);
+  out.close(path);
+}
+
+}  // namespace qmorph::adapter
