@@ -103,17 +103,6 @@ class Search {
   std::vector<Index> came_by_;
 };
 
-std::vector<Index> nodes_of(const Mesh& mesh, Index f) {
-  std::vector<Index> nodes;
-  const Index start = mesh.half_edge(f);
-  Index h = start;
-  do {
-    nodes.push_back(mesh.origin(h));
-    h = mesh.next(h);
-  } while (h != start);
-  return nodes;
-}
-
 /// The five-sided face of `exit` is cut so that a triangle lies at `exit`, the better of two ways.
 void cut_triangle_at(Mesh& mesh, Index exit) {
   const auto node = [&](Index h) { return mesh.origin(h); };
@@ -140,7 +129,7 @@ bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::vector<Index>& 
     const Index h = path[i], f = mesh.face(h), g = mesh.face(Mesh::twin(h));
     if (f == kNone || g == kNone || f == g || !mesh.is_triangle(f)) return false;
     for (Index face : {f, g})
-      for (Index v : nodes_of(mesh, face)) nodes.push_back(v);
+      for (Index v : topology::nodes_of(mesh, face)) nodes.push_back(v);
     int shared = 0;
     Index e = mesh.half_edge(f);
     for (int k = 0; k < 3; ++k, e = mesh.next(e)) shared += mesh.face(Mesh::twin(e)) == g;
@@ -157,11 +146,27 @@ bool all_valid_around(const Mesh& mesh, const std::vector<Index>& nodes) {
   return true;
 }
 
+/// How much of the surroundings gets a layer of quads around it, to give fixed nodes room, before a triangle is passed.
+enum class Room { none, chain, ring };
+constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring};
+
+std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
+  std::vector<Index> faces;
+  for (Index h : path) faces.push_back(mesh.face(h));
+  faces.push_back(mesh.face(Mesh::twin(path.back())));
+  return faces;
+}
+
 /// One triangle to one partner, in a transaction.
-bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& path) {
+bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& path, Room room) {
   std::vector<Index> nodes;
   mesh.begin();
-  bool done = pass_along(mesh, path, nodes);
+  bool done = true;
+  if (room != Room::none) {
+    const auto faces = topology::grow(mesh, faces_on(mesh, path), room == Room::ring ? 1 : 0);
+    done = topology::pillow(mesh, faces, nodes);
+  }
+  done = done && pass_along(mesh, path, nodes);
   if (done) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -172,6 +177,17 @@ bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<I
   }
   done ? mesh.commit() : mesh.rollback();
   return done;
+}
+
+/// Passes triangle f to the nearest partner that it can be passed to.
+bool pass_somewhere(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
+  for (Room room : kRooms)
+    for (int skip = 0; skip < kMostPartners; ++skip) {
+      const std::vector<Index> path = search.path_to_triangle(f, skip);
+      if (path.empty()) break;
+      if (try_path(mesh, smoothing, path, room)) return true;
+    }
+  return false;
 }
 
 }  // namespace
@@ -187,14 +203,7 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
     if (triangles.size() < 2) return triangles.size();
     for (Index f : triangles) {
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
-      for (int skip = 0; skip < kMostPartners; ++skip) {
-        const std::vector<Index> path = search.path_to_triangle(f, skip);
-        if (path.empty()) break;
-        if (try_path(mesh, thorough, path)) {
-          progress = true;
-          break;
-        }
-      }
+      if (pass_somewhere(mesh, thorough, search, f)) progress = true;
     }
   }
   return triangles_of(mesh).size();

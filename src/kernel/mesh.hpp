@@ -96,6 +96,10 @@ class Mesh {
   /// Splits v: the edges from h (exclusive) counter-clockwise to k (exclusive) move to a new vertex at p, and a
   /// quad v, target(h), new, target(k) opens. h == k is not allowed. Returns the new vertex.
   Index open_quad(Index h, Index k, const Vec2& p);
+  /// Puts a layer of quads along the inside of a closed loop of half-edges (faces to shrink on their left): every
+  /// node of the loop gets a copy for the inside, moved by `share` towards the centre of its faces there.
+  /// Precondition: the loop passes each node once. Returns the copies, in the loop's order.
+  std::vector<Index> pillow(const std::vector<Index>& loop, double share);
   /// Replaces everything inside the closed ring of half-edges (interior on their left) by one face.
   /// `faces` are the faces inside. Returns the face.
   Index make_face(const std::vector<Index>& ring, const std::vector<Index>& inside);

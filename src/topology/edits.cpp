@@ -36,6 +36,76 @@ std::size_t remove_doublets(kernel::Mesh& mesh, std::vector<Index> nodes) {
   return removed;
 }
 
+std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
+  std::vector<Index> nodes;
+  const Index start = mesh.half_edge(f);
+  Index h = start;
+  do {
+    nodes.push_back(mesh.origin(h));
+    h = mesh.next(h);
+  } while (h != start);
+  return nodes;
+}
+
+std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int rings) {
+  std::sort(faces.begin(), faces.end());
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t count = faces.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (Index v : nodes_of(mesh, faces[i])) {
+        Index h = mesh.out(v);
+        do {
+          if (mesh.face(h) != kNone) faces.push_back(mesh.face(h));
+          h = mesh.rotate_ccw(h);
+        } while (h != mesh.out(v));
+      }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  }
+  return faces;
+}
+
+bool pillow(kernel::Mesh& mesh, const std::vector<Index>& faces, std::vector<Index>& nodes) {
+  constexpr double kShare = 0.2;
+  std::vector<Index> sorted = faces;
+  std::sort(sorted.begin(), sorted.end());
+  const auto inside = [&](Index f) {
+    return f != kNone && std::binary_search(sorted.begin(), sorted.end(), f);
+  };
+  std::vector<Index> outline;
+  for (Index f : sorted) {
+    const Index start = mesh.half_edge(f);
+    Index h = start;
+    do {
+      if (!inside(mesh.face(kernel::Mesh::twin(h)))) outline.push_back(h);
+      h = mesh.next(h);
+    } while (h != start);
+  }
+  std::vector<Index> origins;
+  for (Index h : outline) origins.push_back(mesh.origin(h));
+  std::sort(origins.begin(), origins.end());
+  if (std::adjacent_find(origins.begin(), origins.end()) != origins.end()) return false;
+
+  std::vector<std::vector<Index>> loops;
+  std::sort(outline.begin(), outline.end());
+  while (!outline.empty()) {
+    std::vector<Index> loop;
+    Index h = outline.front();
+    do {
+      loop.push_back(h);
+      outline.erase(std::lower_bound(outline.begin(), outline.end(), h));
+      h = mesh.next(h);  // round the target, through the set, to the next side of its outline
+      while (inside(mesh.face(kernel::Mesh::twin(h)))) h = mesh.rotate_cw(h);
+    } while (h != loop.front());
+    loops.push_back(std::move(loop));
+  }
+  for (const auto& loop : loops) {
+    const std::vector<Index> copies = mesh.pillow(loop, kShare);
+    nodes.insert(nodes.end(), copies.begin(), copies.end());
+  }
+  return true;
+}
+
 double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   const std::size_t n = nodes.size();
   double least = 1;

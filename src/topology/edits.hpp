@@ -13,6 +13,17 @@ Index remove_doublet(kernel::Mesh& mesh, Index v);
 /// result. Returns how many went.
 std::size_t remove_doublets(kernel::Mesh& mesh, std::vector<Index> nodes);
 
+/// Shrinks a set of faces and puts a layer of quads around it, so that every node of the set is free to
+/// move. Appends the new nodes to `nodes`. False, with nothing changed, if the outline of the
+/// set touches itself.
+bool pillow(kernel::Mesh& mesh, const std::vector<Index>& faces, std::vector<Index>& nodes);
+
+/// `faces` and `rings` rings of faces around them that share a node.
+std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int rings);
+
+/// Nodes of a face, counter-clockwise.
+std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f);
+
 /// Smallest corner sine of the polygon that runs through these nodes, counter-clockwise.
 double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 
