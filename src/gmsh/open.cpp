@@ -7,6 +7,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <regex>
 #include <sstream>
 
 #include "gmsh/compat.hpp"
@@ -21,6 +23,9 @@ namespace fs = std::filesystem;
 
 /// A header is in the first lines, after comments if there are any.
 constexpr int kLinesToLookAt = 200;
+
+/// More than this in a file without $Entities, and reading it again for each would take too long.
+constexpr std::size_t kUndeclaredEntities = 256;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -60,6 +65,35 @@ void refuse_mixed_groups(const MshHeader& header) {
           "give each group its own elementary tag, or write the file as MSH 4.1",
           tag, dim, groups.size()));
   }
+}
+
+/// "Unknown entity 7 of dimension 1": what a file without $Entities makes Gmsh say when elements are on an entity that no node
+/// is on. \return dimension and tag
+std::optional<std::pair<int, int>> unknown_entity(const StageLog& log) {
+  static const std::regex complaint(R"(Unknown entity (\d+) of dimension (\d+))");
+  for (const std::string& error : log.errors) {
+    std::smatch match;
+    if (std::regex_search(error, match, complaint)) return std::pair(std::stoi(match[2]), std::stoi(match[1]));
+  }
+  return std::nullopt;
+}
+
+/// Opens a file. Entities that it uses and does not declare are made first, one more with each attempt.
+StageLog open_file(const std::string& path) {
+  StageLog log = run_logged([&] { ::gmsh::open(path); });
+  std::vector<std::pair<int, int>> entities;
+  while (entities.size() < kUndeclaredEntities) {
+    const auto missing = unknown_entity(log);
+    if (!missing || std::count(entities.begin(), entities.end(), *missing)) break;
+    entities.push_back(*missing);
+    log = run_logged([&] {
+      ::gmsh::clear();
+      ::gmsh::model::add(fs::path(path).stem().string());
+      for (const auto& [dim, tag] : entities) ::gmsh::model::addDiscreteEntity(dim, tag);
+      ::gmsh::merge(path);
+    });
+  }
+  return log;
 }
 
 }  // namespace
@@ -105,7 +139,7 @@ OpenedModel open_model(const std::string& path) {
   set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it on reading (notes 1.5)
 
   auto start = std::chrono::steady_clock::now();
-  const StageLog log = run_logged([&] { ::gmsh::open(path); });
+  const StageLog log = open_file(path);
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
   refuse_mixed_groups(opened.msh);
   opened.warnings = log.warnings;
