@@ -41,6 +41,15 @@ Eigen::Vector3d area_vector(const Mesh& mesh) {
   return sum;
 }
 
+/// The same without direction: what leaves the plane has more of it.
+template <class Mesh>
+double twice_area(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& triangle : mesh.triangles) sum += area_vector(mesh.points, triangle).norm();
+  for (const auto& quad : mesh.quads) sum += area_vector(mesh.points, quad).norm();
+  return sum;
+}
+
 template <std::size_t N>
 std::string find_bad_corner(const QuadMesh& mesh, std::span<const std::array<Index, N>> elements,
                             const Eigen::Vector3d& normal) {
@@ -167,15 +176,14 @@ std::string find_defect(const Patch& patch, const QuadMesh& mesh) {
   if (std::string defect = find_lost_edge(patch, mesh, rows); !defect.empty()) return defect;
   if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
 
-  const Eigen::Vector3d before = area_vector(patch);
-  const Eigen::Vector3d normal = before.normalized();
+  const Eigen::Vector3d normal = patch_normal(patch);
   // Quads that were there before are the input's business, good or bad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(patch.quads.size());
   if (std::string bad = find_bad_corner<4>(mesh, made, normal); !bad.empty()) return bad;
   if (std::string bad = find_bad_corner<3>(mesh, mesh.triangles, normal); !bad.empty()) return bad;
-  const double area = before.norm(), change = (area_vector(mesh) - before).norm();
-  if (!(change <= kAreaTolerance * area))
-    return fmt::format("the area has changed by a factor of {:.3g}", change / area);
+  const double before = twice_area(patch), after = twice_area(mesh);
+  if (!(std::abs(after - before) <= kAreaTolerance * before))
+    return fmt::format("the area has changed by a factor of {:.9g}", after / before);
   return {};
 }
 

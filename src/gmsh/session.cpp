@@ -34,8 +34,7 @@ Session::Session(const std::vector<std::string>& arguments) {
   set_option("General.Terminal", 0);
   set_option("General.AbortOnError", 0);
   set_option("General.Verbosity", kVerbosity);
-  // One thread: the log is not protected before 4.14, and only then is Gmsh's mesh always the same (notes 6.3).
-  set_option("General.NumThreads", 1);
+  use_one_thread();
 }
 
 Session::~Session() {
@@ -101,6 +100,11 @@ double get_option(const std::string& name) {
 }
 
 void set_option(const std::string& name, double value) { ::gmsh::option::setNumber(name, value); }
+
+void use_one_thread() {
+  set_option("General.NumThreads", 1);
+  for (const char* name : {"Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D"}) set_option(name, 1);
+}
 
 ScopedOption::ScopedOption(std::string name, double value)
     : name_(std::move(name)), before_(get_option(name_)) {

@@ -1,0 +1,181 @@
+/// What cannot be converted is left as it was, and said: which surface, where, why. The rest is converted.
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/session.hpp"
+#include "gmsh/support.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+
+namespace {
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A good plate as surface 1, and whatever is bad as surface 2 and at x = 10.
+struct Mixed {
+  Grid plate;
+  std::vector<std::array<double, 3>> nodes = plate.nodes();
+  std::vector<std::string> elements;
+  Mixed() {
+    for (const auto& triangle : plate.triangles()) elements.push_back(row("2 2 0 1", triangle));
+  }
+  int add(double x, double y, double z) {
+    nodes.push_back({10 + x, y, z});
+    return static_cast<int>(nodes.size());
+  }
+  void bad(int a, int b, int c) { elements.push_back(row<3>("2 2 0 2", {a, b, c})); }
+};
+
+void check_left(const Mixed& mixed, const std::string& message) {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22(mixed.nodes, mixed.elements));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 3);
+  CHECK(mentions(result.err, message));
+  CHECK(mentions(result.err, "qmorph: 1 of 2 surfaces left as they were: 2"));
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  CHECK(element_counts(after, 1).first == 0);
+  CHECK(difference(read_snapshot(directory / "in.msh"), after, {1}) == "");
+}
+
+}  // namespace
+
+TEST_CASE("refused: three triangles at one edge") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0);
+  mixed.bad(a, b, mixed.add(0, 1, 0));
+  mixed.bad(a, b, mixed.add(0, -1, 0));
+  mixed.bad(a, b, mixed.add(0, 0, 1));
+  check_left(mixed, "surface 2: 3 triangles left as they were: it is not a manifold: more than two elements share an "
+                    "edge, from node 26 at (10, 0, 0)");
+}
+
+TEST_CASE("refused: the same triangle twice, with others around it") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(0, 1, 0), d = mixed.add(1, 1, 0);
+  mixed.bad(a, b, c);
+  mixed.bad(a, b, c);
+  mixed.bad(b, d, c);
+  check_left(mixed, "it is not a manifold");
+}
+
+TEST_CASE("refused: a Moebius strip") {
+  Mixed mixed;
+  constexpr int kCount = 9;
+  std::vector<int> low, high;
+  for (int i = 0; i < kCount; ++i) {
+    low.push_back(mixed.add(i, 0, 0));
+    high.push_back(mixed.add(i, 1, 0));
+  }
+  low.push_back(high[0]);  // the ends are glued with a half turn
+  high.push_back(low[0]);
+  for (int i = 0; i < kCount; ++i) {
+    mixed.bad(low[i], low[i + 1], high[i]);
+    mixed.bad(high[i], low[i + 1], high[i + 1]);
+  }
+  check_left(mixed, "it has no orientation, like a Moebius strip");
+}
+
+TEST_CASE("refused: a triangle with one node twice") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(0, 1, 0);
+  mixed.bad(a, b, c);
+  mixed.bad(b, b, c);
+  check_left(mixed, "uses node 27 at (11, 0, 0) twice");
+}
+
+TEST_CASE("refused: a node at no place") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0);
+  mixed.bad(a, b, mixed.add(0, std::nan(""), 0));
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22(mixed.nodes, mixed.elements));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 3);
+  CHECK(mentions(result.err, "surface 2: 1 triangles left as they were: node 28 at (10, nan, 0) is nowhere"));
+}
+
+TEST_CASE("refused: a surface that is not planar") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(0, 1, 0.5), d = mixed.add(1, 1, 0);
+  mixed.bad(a, b, d);
+  mixed.bad(a, d, c);
+  check_left(mixed, "planar");
+}
+
+TEST_CASE("refused: second order") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    build_two_squares();
+    ::gmsh::model::mesh::setOrder(2);
+  });
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.status == 3);
+  CHECK(mentions(result.err, "it has elements with 6 nodes, and only linear triangles and quads can be converted"));
+  CHECK(mentions(result.err, "Mesh.ElementOrder = 1"));
+  CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
+}
+
+TEST_CASE("refused: second order asked for in a script, before anything is meshed") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.ElementOrder = 2;\n");
+  const Result result = run_qmorph({directory / "in.geo"});
+  CHECK(result.status == 2);
+  CHECK(mentions(result.err, "Mesh.ElementOrder is 2, and only linear meshes"));
+  CHECK(directory.files() == std::vector<std::string>{"in.geo"});
+}
+
+TEST_CASE("refused: periodic surfaces; their neighbours are converted and the pair is kept") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    ::gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::model::mesh::setPeriodic(2, {2}, {1}, {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    adapter::set_option("Mesh.MeshSizeMax", 0.3);
+    ::gmsh::model::mesh::generate(2);
+  });
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 3);
+  CHECK(mentions(result.err, "it is periodic with another surface"));
+  CHECK(mentions(result.err, "2 of 6 surfaces left as they were: 1, 2"));
+  CHECK(difference(read_snapshot(directory / "in.msh"), read_snapshot(directory / "out.msh"), {3, 4, 5, 6}) == "");
+}
+
+TEST_CASE("refused: elements of one entity in several groups of MSH 2") {
+  const TemporaryDirectory directory;
+  const Grid grid;
+  std::vector<std::string> elements;
+  for (const auto& triangle : grid.triangles())
+    elements.push_back(row(elements.size() % 2 ? "2 2 8 1" : "2 2 9 1", triangle));
+  write_file(directory / "in.msh", msh22(grid.nodes(), elements));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.status == 2);
+  CHECK(mentions(result.err, "elements with elementary tag 1 (dimension 2) are in 2 physical groups"));
+  CHECK(directory.files() == std::vector<std::string>{"in.msh"});
+}
+
+TEST_CASE("refused: two nodes with one tag, an element without its node") {
+  const TemporaryDirectory directory;
+  const Grid grid;
+  std::vector<std::string> elements;
+  for (const auto& triangle : grid.triangles()) elements.push_back(row("2 2 0 1", triangle));
+  std::string text = msh22(grid.nodes(), elements);
+  elements.push_back("2 2 0 1 1 2 4711");
+  write_file(directory / "unknown.msh", msh22(grid.nodes(), elements));
+  text.replace(text.find("\n7 "), 3, "\n6 ");
+  write_file(directory / "twice.msh", text);
+  for (const char* name : {"unknown.msh", "twice.msh"}) {
+    CAPTURE(name);
+    const Result result = run_qmorph({directory / name, "-o", directory / "out.msh"});
+    CAPTURE(result.err);
+    CHECK(result.status == 2);
+  }
+  CHECK(directory.files() == std::vector<std::string>{"twice.msh", "unknown.msh"});
+}
