@@ -8,12 +8,13 @@ Point(4) = {0, 1.2, 0, size};
 Line(1) = {1, 2};
 Line(2) = {2, 3};
 Line(3) = {3, 4};
-Line(4) = {4, 1};
-Curve Loop(1) = {1:4};
+Point(5) = {0, 0.6, 0, size}; // mouth of the crack
+Line(4) = {4, 5};
+Line(8) = {5, 1};
+Curve Loop(1) = {1:4, 8};
 Plane Surface(1) = {1};
 
 // The first crack starts at the edge, the second lies inside.
-Point(5) = {0, 0.6, 0, size};
 Point(6) = {0.5, 0.62, 0, size / 2};
 Point(7) = {0.8, 0.75, 0, tip};
 Point(8) = {1.1, 0.35, 0, tip};
