@@ -2,6 +2,7 @@
 //
 //   qmorph_campaign FIRST LAST          converts the seeds FIRST to LAST: a line for each that fails, then the totals
 //   qmorph_campaign --dump SEED PREFIX  writes PREFIX-in.msh and, if the conversion ends, PREFIX-out.msh
+//   qmorph_campaign --shrink SEED PREFIX  the same for a smaller patch that fails in the same way
 //
 // The seeds run in a child process, so that one that crashes or hangs is reported like any other, and the rest goes on.
 // Exit status 0 if nothing failed.
@@ -14,7 +15,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <string>
 
@@ -23,6 +23,7 @@
 #include "support/domains.hpp"
 #include "support/dump.hpp"
 #include "support/invariants.hpp"
+#include "support/shrink.hpp"
 
 namespace {
 
@@ -190,27 +191,52 @@ std::uint64_t run_child(std::uint64_t first, std::uint64_t last, Summary& summar
   return next + 1;
 }
 
-int dump_seed(std::uint64_t seed, const std::string& prefix) {
-  const test::Domain domain = test::random_domain(seed);
-  std::printf("seed %llu: %s, %zu triangles\n", static_cast<unsigned long long>(seed), domain.kind.c_str(),
-              domain.patch.triangles.size());
-  test::dump(domain.patch, prefix + "-in.msh");
+/// The first thing that is wrong with the conversion of a patch; empty if all is well.
+std::string problem_of(const Patch& patch) {
   try {
-    const QuadMesh mesh = convert(domain.patch);
-    test::dump(domain.patch, mesh, prefix + "-out.msh");
-    for (const std::string& line : test::broken_invariants(domain.patch, mesh)) std::printf("%s\n", line.c_str());
+    const auto broken = test::broken_invariants(patch, convert(patch));
+    return broken.empty() ? "" : broken.front();
+  } catch (const std::exception& e) {
+    return std::string("exception: ") + e.what();
+  }
+}
+
+void dump_patch(const Patch& patch, const std::string& prefix) {
+  test::dump(patch, prefix + "-in.msh");
+  try {
+    const QuadMesh mesh = convert(patch);
+    test::dump(patch, mesh, prefix + "-out.msh");
+    for (const std::string& line : test::broken_invariants(patch, mesh)) std::printf("%s\n", line.c_str());
   } catch (const std::exception& e) {
     std::printf("exception: %s\n", e.what());
   }
+}
+
+/// Writes the patch of a seed and what becomes of it.
+int dump_seed(std::uint64_t seed, const std::string& prefix, bool shrink) {
+  test::Domain domain = test::random_domain(seed);
+  if (shrink) {
+    const std::string cause = cause_of(problem_of(domain.patch));
+    if (cause.empty()) {
+      std::printf("seed %llu does not fail\n", static_cast<unsigned long long>(seed));
+      return 1;
+    }
+    domain.patch = test::shrunk(domain.patch, [&](const Patch& less) { return cause_of(problem_of(less)) == cause; });
+  }
+  std::printf("seed %llu: %s, %zu triangles, %zu quads\n", static_cast<unsigned long long>(seed), domain.kind.c_str(),
+              domain.patch.triangles.size(), domain.patch.quads.size());
+  dump_patch(domain.patch, prefix);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::strcmp(argv[1], "--dump") == 0) return dump_seed(std::strtoull(argv[2], nullptr, 10), argv[3]);
+  const std::string action = argc == 4 ? argv[1] : "";
+  if (action == "--dump" || action == "--shrink")
+    return dump_seed(std::strtoull(argv[2], nullptr, 10), argv[3], action == "--shrink");
   if (argc != 3) {
-    std::fprintf(stderr, "usage: qmorph_campaign FIRST LAST | --dump SEED PREFIX\n");
+    std::fprintf(stderr, "usage: qmorph_campaign FIRST LAST | --dump SEED PREFIX | --shrink SEED PREFIX\n");
     return 2;
   }
   const std::uint64_t last = std::strtoull(argv[2], nullptr, 10);
