@@ -147,8 +147,8 @@ bool all_valid_around(const Mesh& mesh, const std::vector<Index>& nodes) {
 }
 
 /// How much of the surroundings gets a layer of quads around it, to give fixed nodes room, before a triangle is passed.
-enum class Room { none, chain, ring };
-constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring};
+enum class Room { none, chain, ring, two_rings };
+constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring, Room::two_rings};
 
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
   std::vector<Index> faces;
@@ -163,7 +163,8 @@ bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<I
   mesh.begin();
   bool done = true;
   if (room != Room::none) {
-    const auto faces = topology::grow(mesh, faces_on(mesh, path), room == Room::ring ? 1 : 0);
+    const int rings = int(room) - int(Room::chain);
+    const auto faces = topology::grow(mesh, faces_on(mesh, path), rings);
     done = topology::pillow(mesh, faces, nodes);
   }
   done = done && pass_along(mesh, path, nodes);

@@ -122,6 +122,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
       }
       corners[i] = vertex_of[fan];
       region.boundary_sides += open[c];
+      region.open.push_back(open[c]);
     }
     region.triangles.push_back(corners);
   }

@@ -13,9 +13,18 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
 inline bool is_ccw(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation(a, b, c) > 0; }
 
-/// All four corners are strictly convex.
-inline bool is_convex_quad(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return is_ccw(a, b, c) && is_ccw(b, c, d) && is_ccw(c, d, a) && is_ccw(d, a, b);
+/// A corner whose sine is not above this is straight, closed or turned over: an element with such a corner is
+/// not valid. Far above the rounding of coordinates that were turned into their plane, far below what a
+/// solver notices.
+inline constexpr double kStraightSine = 1e-6;
+/// The same for triangles: slivers of the input are tolerated, zero area is not.
+inline constexpr double kDegenerateSine = 1e-10;
+
+/// The corner at b of a polygon that runs a, b, c is convex by more than the sine given.
+inline bool is_convex_corner(const Vec2& a, const Vec2& b, const Vec2& c, double least_sine) {
+  const Vec2 to_next = c - b, to_previous = a - b;
+  const double area = cross(to_next, to_previous);
+  return area > 0 && area * area > least_sine * least_sine * to_next.squaredNorm() * to_previous.squaredNorm();
 }
 
 }  // namespace qmorph

@@ -19,7 +19,9 @@ std::vector<Index> offsets_by_origin(Index vertices,
 
 }  // namespace
 
-Mesh::Mesh(std::vector<Vec2> points, const std::vector<std::array<Index, 3>>& triangles) {
+Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 3>>& triangles,
+           const std::vector<bool>& open) {
+  const auto is_open = [&](std::size_t side) { return side < open.size() && open[side]; };
   const auto vertices = Index(points.size());
   vertices_.resize(vertices);
   for (Index v = 0; v < vertices; ++v) vertices_[v].point = points[v];
@@ -35,7 +37,7 @@ Mesh::Mesh(std::vector<Vec2> points, const std::vector<std::array<Index, 3>>& tr
     for (int i = 0; i < 3; ++i) {
       const Index a = triangles[f][i], b = triangles[f][(i + 1) % 3];
       h[i] = kNone;
-      for (Index k = start[b]; k < fill[b]; ++k)
+      for (Index k = start[b]; k < fill[b] && !is_open(3 * f + i); ++k)
         if (leaving[k].first == a) h[i] = twin(leaving[k].second);
       if (h[i] == kNone) {
         h[i] = Index(half_edges_.size());
@@ -43,7 +45,7 @@ Mesh::Mesh(std::vector<Vec2> points, const std::vector<std::array<Index, 3>>& tr
         half_edges_[h[i]].origin = a;
         half_edges_[h[i] ^ 1].origin = b;
       }
-      leaving[fill[a]++] = {b, h[i]};
+      leaving[fill[a]++] = {is_open(3 * f + i) ? kNone : b, h[i]};
       vertices_[a].out = h[i];
     }
     for (int i = 0; i < 3; ++i) {
@@ -82,12 +84,14 @@ Index Mesh::find(Index a, Index b) const {
 }
 
 bool Mesh::is_valid_face(Index f) const {
+  const double least = degree(f) == 3 ? kDegenerateSine : kStraightSine;
   const Index start = half_edge(f);
   Index h = start;
   do {
-    if (!is_ccw(point(origin(prev(h))), point(origin(h)), point(target(h)))) return false;
+    if (!is_convex_corner(point(origin(prev(h))), point(origin(h)), point(target(h)), least))
+      return false;
     h = next(h);
-  } while (h != start && degree(f) != 3);
+  } while (h != start);
   return true;
 }
 
@@ -188,8 +192,12 @@ bool Mesh::can_flip(Index h) const {
   const Index t = twin(h);
   if (!is_triangle(face(h)) || !is_triangle(face(t))) return false;
   const Index a = origin(h), b = target(h), c = origin(prev(h)), d = origin(prev(t));
-  return is_ccw(point(a), point(d), point(c)) && is_ccw(point(d), point(b), point(c)) &&
-         find(c, d) == kNone;
+  const auto is_triangle_valid = [&](Index u, Index v, Index w) {
+    return is_convex_corner(point(u), point(v), point(w), kDegenerateSine) &&
+           is_convex_corner(point(v), point(w), point(u), kDegenerateSine) &&
+           is_convex_corner(point(w), point(u), point(v), kDegenerateSine);
+  };
+  return is_triangle_valid(a, d, c) && is_triangle_valid(d, b, c) && find(c, d) == kNone;
 }
 
 void Mesh::flip(Index h) {

@@ -6,7 +6,7 @@
 /// Invariants, checked by `find_defects()`:
 ///   - the twin of h is h ^ 1; next(prev(h)) == h; target(h) == origin(next(h)); a face has one loop
 ///   - face(h) == kNone outside; a boundary vertex has exactly one outgoing boundary half-edge, and it is out(v)
-///   - two vertices are joined by one edge at most
+///   - two vertices are joined by one edge at most, or by the two sides of a slit that is one edge long
 ///   - a dead element is reachable from nothing
 
 #include <string>
@@ -33,8 +33,10 @@ struct Face {
 class Mesh {
  public:
   Mesh() = default;
-  /// From an indexed mesh that is a manifold with boundary, faces counter-clockwise.
-  Mesh(std::vector<Vec2> points, const std::vector<std::array<Index, 3>>& triangles);
+  /// From an indexed mesh that is a manifold with boundary, faces counter-clockwise. Side 3 * t + i of the triangles
+  /// (from corner i of triangle t to the next) is not joined to another where `open` says so.
+  Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 3>>& triangles,
+       const std::vector<bool>& open = {});
 
   // --- navigation -----------------------------------------------------------------------------------
   static Index twin(Index h) { return h ^ 1; }
@@ -70,7 +72,7 @@ class Mesh {
   Index face_slots() const { return Index(faces_.size()); }
 
   // --- geometry of elements -----------------------------------------------------------------------------
-  /// All corners of the face are strictly convex (exact).
+  /// All corners of the face are convex, by more than `kStraightSine` (`kDegenerateSine` in a triangle).
   bool is_valid_face(Index f) const;
   /// Every face around v is valid.
   bool is_valid_star(Index v) const;

@@ -1,44 +1,68 @@
 #include "smoothing/node_energy.hpp"
 
+#include <cmath>
+
 namespace qmorph::smoothing {
 namespace {
 
 using Matrix = Eigen::Matrix2d;
 
+/// How a corner's area J enters its energy: as h(J), with the first two derivatives.
+struct Plain {
+  bool accepts(double j) const { return j > 0; }
+  double h(double j) const { return j; }
+  double dh(double) const { return 1; }
+  double ddh(double) const { return 0; }
+};
+struct Regularised {
+  double delta;
+  double root(double j) const { return std::sqrt(j * j + 4 * delta * delta); }
+  bool accepts(double) const { return true; }
+  double h(double j) const {
+    // For negative j the sum cancels: its conjugate does not.
+    return j >= 0 ? 0.5 * (j + root(j)) : 2 * delta * delta / (root(j) - j);
+  }
+  double dh(double j) const { return h(j) / root(j); }
+  double ddh(double j) const { return 2 * delta * delta / std::pow(root(j), 3); }
+};
+
 /// Adds mu^2 of the corner with edges a, b. `dn` and `dj` are the gradients of |a|^2 + |b|^2 and of a x b with
 /// respect to the node, `n2` the diagonal of the (constant) second derivative of the first.
-void add_corner(Energy& energy, const Vec2& a, const Vec2& b, const Vec2& dn, double n2,
-                const Vec2& dj) {
+template <class Area>
+void add_corner(Energy& energy, const Area& area, const Vec2& a, const Vec2& b, const Vec2& dn,
+                double n2, const Vec2& dj) {
   const double j = cross(a, b);
-  if (!(j > 0)) {
+  if (!area.accepts(j)) {
     energy.finite = false;
     return;
   }
-  const double n = a.squaredNorm() + b.squaredNorm(), mu = n / (2 * j);
-  const Vec2 g = (dn - (n / j) * dj) / (2 * j);
-  const Matrix outer = dn * dj.transpose();
-  const Matrix h = n2 / (2 * j) * Matrix::Identity() - (outer + outer.transpose()) / (2 * j * j) +
-                   n / (j * j * j) * dj * dj.transpose();
+  const double h = area.h(j), dh = area.dh(j);
+  const double n = a.squaredNorm() + b.squaredNorm(), mu = n / (2 * h);
+  const Vec2 g = (dn - (n * dh / h) * dj) / (2 * h);
+  const Matrix mixed = dn * dj.transpose(), outer = dj * dj.transpose();
+  const Matrix second = n2 / (2 * h) * Matrix::Identity() -
+                        dh * (mixed + mixed.transpose()) / (2 * h * h) +
+                        (n * dh * dh / (h * h * h) - n * area.ddh(j) / (2 * h * h)) * outer;
   energy.value += mu * mu;
   energy.gradient += 2 * mu * g;
-  energy.hessian += 2 * (mu * h + g * g.transpose());
+  energy.hessian += 2 * (mu * second + g * g.transpose());
 }
 
-void add_value(Energy& energy, const Vec2& a, const Vec2& b) {
+template <class Area>
+void add_value(Energy& energy, const Area& area, const Vec2& a, const Vec2& b) {
   const double j = cross(a, b);
-  if (!(j > 0)) {
+  if (!area.accepts(j)) {
     energy.finite = false;
     return;
   }
-  const double mu = (a.squaredNorm() + b.squaredNorm()) / (2 * j);
+  const double mu = (a.squaredNorm() + b.squaredNorm()) / (2 * area.h(j));
   energy.value += mu * mu;
 }
 
 Vec2 clockwise(const Vec2& v) { return {v.y(), -v.x()}; }
 
-}  // namespace
-
-Energy energy_around(const kernel::Mesh& mesh, Index v) {
+template <class Area>
+Energy around(const kernel::Mesh& mesh, Index v, const Area& area) {
   Energy energy;
   const Vec2& p = mesh.point(v);
   Index h = mesh.out(v);
@@ -50,34 +74,51 @@ Energy energy_around(const kernel::Mesh& mesh, Index v) {
       const Vec2 &after_q = mesh.point(mesh.target(from_q)),
                  &before_r = mesh.point(mesh.origin(mesh.prev(to_v)));
       const Vec2 e1 = q - p, e2 = r - p;
-      add_corner(energy, e1, e2, -2 * (e1 + e2), 4, clockwise(q - r));
+      add_corner(energy, area, e1, e2, -2 * (e1 + e2), 4, clockwise(q - r));
       // At q: edges to the next corner and back to v; v is the end of the second.
       const Vec2 q1 = after_q - q, q2 = p - q;
-      add_corner(energy, q1, q2, 2 * q2, 2, -clockwise(q1));
+      add_corner(energy, area, q1, q2, 2 * q2, 2, -clockwise(q1));
       // At r: edges to v and back to the corner before; v is the end of the first.
       const Vec2 r1 = p - r, r2 = before_r - r;
-      add_corner(energy, r1, r2, 2 * r1, 2, clockwise(r2));
+      add_corner(energy, area, r1, r2, 2 * r1, 2, clockwise(r2));
     }
     h = mesh.rotate_ccw(h);
   } while (h != mesh.out(v));
   return energy;
 }
 
-Energy energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p) {
+template <class Area>
+Energy at(const kernel::Mesh& mesh, Index v, const Vec2& p, const Area& area) {
   Energy energy;
   Index h = mesh.out(v);
   do {
     if (mesh.face(h) != kNone) {
       const Index from_q = mesh.next(h), to_v = mesh.prev(h);
       const Vec2 &q = mesh.point(mesh.target(h)), &r = mesh.point(mesh.origin(to_v));
-      add_value(energy, q - p, r - p);
-      add_value(energy, mesh.point(mesh.target(from_q)) - q, p - q);
-      add_value(energy, p - r, mesh.point(mesh.origin(mesh.prev(to_v))) - r);
+      add_value(energy, area, q - p, r - p);
+      add_value(energy, area, mesh.point(mesh.target(from_q)) - q, p - q);
+      add_value(energy, area, p - r, mesh.point(mesh.origin(mesh.prev(to_v))) - r);
       if (!energy.finite) return energy;
     }
     h = mesh.rotate_ccw(h);
   } while (h != mesh.out(v));
   return energy;
+}
+
+}  // namespace
+
+Energy energy_around(const kernel::Mesh& mesh, Index v) { return around(mesh, v, Plain{}); }
+
+Energy energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p) {
+  return at(mesh, v, p, Plain{});
+}
+
+Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta) {
+  return around(mesh, v, Regularised{delta});
+}
+
+double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta) {
+  return at(mesh, v, p, Regularised{delta}).value;
 }
 
 }  // namespace qmorph::smoothing

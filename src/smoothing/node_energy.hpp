@@ -16,6 +16,12 @@ struct Energy {
   Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
 
+/// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a
+/// corner, which is positive everywhere and tends to J as delta goes to zero. [Escobar03]
+/// `delta` is an area.
+Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta);
+double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta);
+
 /// Energy of the corners whose shape depends on v, with derivatives with respect to v.
 Energy energy_around(const kernel::Mesh& mesh, Index v);
 /// The same, value only, as if v were at p.

@@ -39,6 +39,32 @@ bool is_movable(const kernel::Mesh& mesh, Index v) {
   return mesh.is_live_vertex(v) && !mesh.is_fixed(v) && !mesh.is_boundary(v);
 }
 
+/// Makes the elements around `nodes` valid by moving the nodes down a regularised energy whose regularisation
+/// fades. [Escobar03] Returns false if some element stays invalid.
+bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes) {
+  constexpr int kSweeps = 40, kHalvings = 8;
+  constexpr double kFirstDelta = 0.5, kLastDelta = 1e-4;
+  const double fade = std::pow(kLastDelta / kFirstDelta, 1.0 / kSweeps);
+  double share_of_area = kFirstDelta;
+  for (int sweep = 0; sweep < kSweeps; ++sweep, share_of_area *= fade) {
+    for (Index v : nodes) {
+      const double delta = share_of_area * std::pow(mean_edge(mesh, v), 2);
+      const Energy energy = regularised_energy_around(mesh, v, delta);
+      const Vec2 start = mesh.point(v), step = direction(energy, mean_edge(mesh, v));
+      double share = 1;
+      for (int i = 0; i < kHalvings; ++i, share /= 2) {
+        const Vec2 p = start + share * step;
+        if (!(regularised_energy_at(mesh, v, p, delta) < energy.value)) continue;
+        mesh.set_point(v, p);
+        break;
+      }
+    }
+    if (std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); }))
+      return true;
+  }
+  return false;
+}
+
 /// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
 class Passes {
  public:
@@ -131,6 +157,8 @@ void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     }
   }
   std::erase_if(around, [&](Index v) { return !is_movable(mesh, v); });
+  if (!std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); }))
+    if (!untangle(mesh, around)) return;
   for (int pass = 0; pass < options.iterations; ++pass) {
     double moved = 0;
     for (Index v : around) moved = std::max(moved, relax_node(mesh, v));

@@ -74,6 +74,39 @@ bool untangle_node(kernel::Mesh& mesh, Index v) {
   return true;
 }
 
+namespace {
+
+/// Sine of the corner, or less where its edges differ in length by more than about twenty times: the sine alone
+/// would let a node fall onto its neighbour.
+double guarded_sine(const Vec2& at, const Vec2& to_next, const Vec2& to_previous) {
+  constexpr double kLengthGuard = 10;
+  const Vec2 a = to_next - at, b = to_previous - at;
+  const double aa = a.squaredNorm(), bb = b.squaredNorm(), area = cross(a, b);
+  if (!(aa * bb > 0)) return -1;
+  const double sine = area / std::sqrt(aa * bb);
+  return std::min(sine, kLengthGuard * 2 * area / (aa + bb));
+}
+
+double guarded_sine_around(const kernel::Mesh& mesh, Index v) {
+  double least = 1;
+  Index h = mesh.out(v);
+  do {
+    if (mesh.face(h) != kNone) {
+      const Index start = h;
+      Index e = h;
+      do {
+        least = std::min(least, guarded_sine(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)),
+                                             mesh.point(mesh.origin(mesh.prev(e)))));
+        e = mesh.next(e);
+      } while (e != start);
+    }
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return least;
+}
+
+}  // namespace
+
 double smallest_sine_around(const kernel::Mesh& mesh, Index v) {
   double least = 1;
   Index h = mesh.out(v);
@@ -97,7 +130,7 @@ bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
 
   const Vec2 start = mesh.point(v);
   Vec2 best = start;
-  double best_sine = smallest_sine_around(mesh, v);
+  double best_sine = guarded_sine_around(mesh, v);
   double step = kFirstStep * shortest;
   constexpr double kDiagonal = 0.70710678118654752;
   static constexpr double kCompass[kDirections][2] = {
@@ -107,7 +140,7 @@ bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
     const Vec2 centre = best;
     for (const auto& d : kCompass) {
       mesh.set_point(v, centre + step * Vec2(d[0], d[1]));
-      const double sine = smallest_sine_around(mesh, v);
+      const double sine = guarded_sine_around(mesh, v);
       if (sine > best_sine + kLeastGain) best = mesh.point(v), best_sine = sine;
     }
     if (best == centre) step /= 2, ++shrinking;
