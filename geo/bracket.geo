@@ -1,5 +1,5 @@
 // L-bracket with a filleted inner corner, rounded ends and two bolt holes: rows have to follow concave and convex arcs.
-DefineConstant[ leg = 1, arm = 0.8, thick = 0.25, fillet = 0.15, round = 0.06, bolt = 0.05, size = 0.022 ];
+DefineConstant[ leg = 1, arm = 0.8, thick = 0.25, fillet = 0.15, round = 0.06, bolt = 0.05, size = 0.025 ];
 
 // Outline, counter-clockwise from the outer corner.
 Point(1) = {0, 0, 0, size};
