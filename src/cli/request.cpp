@@ -127,12 +127,13 @@ std::vector<std::string> translate(const std::vector<std::string>& arguments, Re
       words.push_back(arguments[i]);
       continue;
     }
+    const std::string& word = arguments[i];
     std::vector<std::string> values;
     if (equals != std::string::npos) values.push_back(arguments[i].substr(equals + 1));
     while (static_cast<int>(values.size()) < row->values && i + 1 < arguments.size())
       values.push_back(arguments[++i]);
     if (static_cast<int>(values.size()) != row->values)
-      throw UsageError(fmt::format("'{}' needs {} value{}", arguments[i], row->values, row->values == 1 ? "" : "s"));
+      throw UsageError(fmt::format("'{}' needs {} value{}", word, row->values, row->values == 1 ? "" : "s"));
     if (row->reader == For::kGmsh)
       note_gmsh_option(*row, values, request);
     else
@@ -159,7 +160,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_flag("--2", ignored_flag);
   app.add_option("--nt", threads)->check(CLI::NonNegativeNumber);
   app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
-  app.add_option("--surfaces", request.surfaces)->delimiter(',');
+  app.add_option("--surfaces", request.surfaces)->delimiter(',')->allow_extra_args(false);
   app.add_option("--stats", request.stats);
   app.add_flag("--help", request.help);
   app.add_flag("--version", request.version);

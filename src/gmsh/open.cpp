@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 /// A header is in the first lines, after comments if there are any.
 constexpr int kLinesToLookAt = 200;
 
+/// For the end of a file: more than any remark that somebody may have left after the mesh.
+constexpr std::streamoff kTailToLookAt = 4096;
+
 /// More than this in a file without $Entities, and reading it again for each would take too long.
 constexpr std::size_t kUndeclaredEntities = 256;
 
@@ -36,6 +39,19 @@ std::string lower_extension(const std::string& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+/// Gmsh takes what it gets of a file that ends too soon, and says something only sometimes. The last line with a
+/// dollar sign of a whole file ends a section.
+void check_complete(const std::string& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(in.tellg());
+  std::string tail(static_cast<std::size_t>(std::min(size, kTailToLookAt)), ' ');
+  in.seekg(size - static_cast<std::streamoff>(tail.size()));
+  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  const std::size_t last = tail.rfind("\n$");
+  const std::string word = last == std::string::npos ? "" : tail.substr(last + 1, 4);
+  if (word != "$End" && word != "$END") throw InputError(fmt::format("{} ends too soon: it is not complete", path));
 }
 
 bool surfaces_have_elements() {
@@ -136,6 +152,7 @@ OpenedModel open_model(const std::string& path) {
   check_readable(path);
   OpenedModel opened;
   opened.msh = read_msh_header(path);
+  if (opened.msh.version != 0) check_complete(path);
   set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it on reading (notes 1.5)
 
   auto start = std::chrono::steady_clock::now();

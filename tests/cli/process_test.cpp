@@ -1,0 +1,101 @@
+/// The program itself, as a Makefile calls it.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/support.hpp"
+
+using namespace qmorph::test;
+
+namespace {
+
+constexpr const char* kSquare = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
+
+constexpr const char* kFineSquare =
+    "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.03;\n";
+
+/// Exit status of the program with these words, its output in files of the directory.
+int call(const TemporaryDirectory& directory, const std::string& words) {
+  const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", QMORPH_COMMAND, words, directory / "stdout",
+                                          directory / "stderr");
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// A file system of a few pages, if we may have one.
+class TinyDisk {
+ public:
+  explicit TinyDisk(const std::string& path) : path_(path) {
+    ::mkdir(path.c_str(), 0755);
+    mounted_ = ::mount("tmpfs", path.c_str(), "tmpfs", 0, "size=16k") == 0;
+  }
+  ~TinyDisk() {
+    if (mounted_) ::umount(path_.c_str());
+  }
+  bool mounted() const { return mounted_; }
+
+ private:
+  std::string path_;
+  bool mounted_ = false;
+};
+
+}  // namespace
+
+TEST_CASE("process: exit statuses") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  const std::string in = directory / "in.geo", out = directory / "out.msh";
+  CHECK(call(directory, fmt::format("'{}' -2 -o '{}'", in, out)) == 0);
+  CHECK(read_file(directory / "stdout").empty());
+  CHECK(call(directory, fmt::format("'{}' -foo", in)) == 1);
+  CHECK(call(directory, "/none.geo") == 2);
+  CHECK(call(directory, fmt::format("'{}'", out)) == 4);
+  CHECK(call(directory, fmt::format("'{}' -o /no/such/directory/x.msh", in)) == 5);
+  CHECK(call(directory, "--help") == 0);
+  CHECK(call(directory, "") == 1);
+}
+
+TEST_CASE("process: a script that says Exit is not a success") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", std::string(kSquare) + "Exit;\n");
+  CHECK(call(directory, fmt::format("'{}'", directory / "in.geo")) == 2);
+  CHECK(read_file(directory / "stderr").find("Gmsh ended the program") != std::string::npos);
+  CHECK(directory.files() == std::vector<std::string>{"in.geo", "stderr", "stdout"});
+}
+
+TEST_CASE("process: a full disk is said, and the earlier file is as it was") {
+  const TemporaryDirectory directory;
+  const TinyDisk disk(directory / "disk");
+  if (!disk.mounted()) {
+    MESSAGE("skipped: only root may make a full disk");
+    return;
+  }
+  const std::string in = directory / "in.geo", out = directory / "disk/out.msh", again = directory / "again.msh";
+  write_file(in, kFineSquare);
+  write_file(out, "earlier");
+  // MSH 2.2 that stays MSH 2.2 is written by ourselves.
+  make_msh(again, 2.2, false, [] {
+    build_two_squares();
+    ::gmsh::model::mesh::refine();
+    ::gmsh::model::mesh::refine();
+  });
+  for (const std::string& input : {in, again})
+    for (const char* options : {"-format msh", "-format msh -bin", "-format msh2", "-format msh2 -bin", "-format vtk", "-format inp"}) {
+      CAPTURE(input);
+      CAPTURE(options);
+      CHECK(call(directory, fmt::format("'{}' {} -o '{}'", input, options, out)) == 5);
+      CHECK(read_file(directory / "stderr").find("cannot write") != std::string::npos);
+      CHECK((read_file(out) == "earlier"));
+      CHECK(std::distance(std::filesystem::directory_iterator(directory / "disk"), {}) == 1);
+    }
+}

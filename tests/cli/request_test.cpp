@@ -1,0 +1,102 @@
+/// The words of the command line.
+
+#include "cli/request.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "qmorph/error.hpp"
+
+using qmorph::UsageError;
+using qmorph::cli::parse;
+using qmorph::cli::Request;
+using Words = std::vector<std::string>;
+
+TEST_CASE("request: Gmsh's spelling and the usual one") {
+  for (const Words& words : {Words{"in.geo", "-o", "out.msh", "-format", "msh2", "-bin", "-v", "3", "-2", "-nt", "4"},
+                             Words{"-2", "--o=out.msh", "--format", "msh2", "--bin", "--v", "3", "--nt=4", "in.geo"}}) {
+    const Request request = parse(words);
+    CHECK(request.input == "in.geo");
+    CHECK(request.output == "out.msh");
+    CHECK(request.format == "msh2");
+    CHECK(request.binary == true);
+    CHECK(request.verbosity == 3);
+    CHECK(request.gmsh_arguments.empty());
+  }
+}
+
+TEST_CASE("request: what is Gmsh's is passed on in its order") {
+  const Request request = parse({"-clmax", "0.1", "in.geo", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring",
+                                 "name", "-o", "-algo", "del2d", "-setnumber", "Mesh.MshFileVersion", "2.2"});
+  CHECK(request.gmsh_arguments == Words{"-clmax", "0.1", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring", "name",
+                                        "-o", "-algo", "del2d", "-setnumber", "Mesh.MshFileVersion", "2.2"});
+  CHECK(request.algorithm_chosen);
+  CHECK(request.msh_version == 2.2);
+  CHECK(request.output.empty());
+}
+
+TEST_CASE("request: lists of surfaces") {
+  CHECK(parse({"a.msh", "--surfaces", "3,7"}).surfaces == std::vector<int>{3, 7});
+  CHECK(parse({"--surfaces=3", "a.msh", "--surfaces", "0"}).surfaces == std::vector<int>{3, 0});
+  CHECK(parse({"a.msh"}).surfaces.empty());
+}
+
+TEST_CASE("request: names of files may be odd") {
+  CHECK(parse({"a b.geo"}).input == "a b.geo");
+  CHECK(parse({"a=b.geo", "-o", "c=d.msh"}).output == "c=d.msh");
+  CHECK(parse({"a.geo", "-o", "-x.msh"}).output == "-x.msh");
+  CHECK(parse({"ä.geo"}).input == "ä.geo");
+}
+
+TEST_CASE("request: --help and --version need nothing else") {
+  CHECK(parse({"--help"}).help);
+  CHECK(parse({"-help"}).help);
+  CHECK(parse({"--version"}).version);
+}
+
+TEST_CASE("request: what makes no sense is named") {
+  const struct {
+    Words words;
+    const char* message;
+  } kCases[] = {
+      {{}, "which file?"},
+      {{"a.geo", "b.geo"}, "b.geo"},
+      {{"a.geo", "-frobnicate"}, "unknown option '-frobnicate'"},
+      {{"a.geo", "--frobnicate=3"}, "unknown option '--frobnicate'"},
+      {{"a.geo", "-3"}, "unknown option '-3'"},
+      {{"a.geo", "-clmax"}, "'-clmax' needs 1 value"},
+      {{"a.geo", "-setnumber", "x"}, "'-setnumber' needs 2 values"},
+      {{"a.geo", "-clmax", "abc"}, "-clmax: 'abc' is not a positive number"},
+      {{"a.geo", "-clmin", "-1"}, "-clmin: '-1' is not a positive number"},
+      {{"a.geo", "-clscale", "0"}, "-clscale: '0' is not a positive number"},
+      {{"a.geo", "-clmax", "nan"}, "is not a positive number"},
+      {{"a.geo", "-clmax", "0.1mm"}, "is not a positive number"},
+      {{"a.geo", "-setnumber", "x", "y"}, "-setnumber: 'y' is not a number"},
+      {{"a.geo", "-algo", "magic"}, "-algo: 'magic' is not an algorithm"},
+      {{"a.geo", "-v", "loud"}, "--v"},
+      {{"a.geo", "-nt", "-1"}, "--nt"},
+      {{"a.geo", "--surfaces", "x"}, "--surfaces"},
+  };
+  for (const auto& the_case : kCases) {
+    CAPTURE(the_case.words);
+    std::string message;
+    try {
+      parse(the_case.words);
+    } catch (const UsageError& error) {
+      message = error.what();
+    }
+    CAPTURE(message);
+    CHECK(message.find(the_case.message) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("request: the help names every option and every exit status") {
+  const std::string help = qmorph::cli::help_text();
+  for (const char* word : {"-o FILE", "-format", "-bin", "-clmin", "-clmax", "-clscale", "-setnumber", "-setstring", "-algo", "-v N",
+                           "-2", "-nt", "--surfaces", "--stats", "--help", "--version", "\n  0  ", "\n  1  ", "\n  2  ",
+                           "\n  3  ", "\n  4  ", "\n  5  "})
+    CHECK(help.find(word) != std::string::npos);
+}
