@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "cleanup/clean_up.hpp"
 #include "elimination/eliminate.hpp"
 #include "engine/regions.hpp"
 #include "front/morph.hpp"
@@ -113,7 +114,13 @@ kernel::Mesh convert_region(const Region& region, const Options& options, Conver
   elimination::eliminate_triangles(mesh, options.smoothing);
   stats.elimination_seconds += watch.lap();
   if (getenv("DBG") && count_faces(mesh, 3) > region.boundary_sides % 2) printf("region: tri in %zu boundary %zu quads %zu tri left %zu near %g %g\n", region.triangles.size(), region.boundary_sides, count_faces(mesh,4), count_faces(mesh,3), region.points[0].x(), region.points[0].y());
-  bnd("elim"); smoothing::smooth(mesh, options.smoothing);
+  bnd("elim");
+  smoothing::smooth(mesh, options.smoothing);
+  stats.smoothing_seconds += watch.lap();
+  if (!getenv("NOCLEAN")) {auto n=cleanup::clean_up(mesh, options.smoothing); if(getenv("DBG")) printf("changes %zu\n",n);}
+  stats.cleanup_seconds += watch.lap();
+  bnd("clean");
+  smoothing::smooth(mesh, options.smoothing);
   stats.smoothing_seconds += watch.lap();
   return mesh;
 }

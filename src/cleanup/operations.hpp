@@ -1,0 +1,33 @@
+#pragma once
+/// The local changes of connectivity that cleanup chooses from.
+
+#include <vector>
+
+#include "cleanup/score.hpp"
+#include "kernel/mesh.hpp"
+
+namespace qmorph::cleanup {
+
+enum class Action {
+  close,         ///< merge origin(h) into the node opposite in face(h) [Canann98]
+  turn_left,     ///< the edge of h, between two quads, moves on counter-clockwise
+  turn_right,    ///< ... clockwise
+  open,          ///< open a quad at origin(h) between the edges of h and k
+  remove_star,   ///< the three quads around the 3-valent origin(h) become two
+};
+
+struct Candidate {
+  Action action;
+  Index h, k;
+  int gain;  ///< how much the score falls, by valences
+};
+
+/// Changes around v that lower the score by at least `least_gain`, best first.
+std::vector<Candidate> candidates_around(const kernel::Mesh& mesh, const Score& score, Index v,
+                                         int least_gain);
+
+/// Carries a change out; topology only. Appends the nodes around it. False, perhaps half-way, if it is
+/// impossible: to be called in a transaction.
+bool apply(kernel::Mesh& mesh, const Candidate& candidate, std::vector<Index>& nodes);
+
+}  // namespace qmorph::cleanup
