@@ -21,7 +21,7 @@ enum class For { kUs, kGmsh };
 
 /// One option. Gmsh writes long names with one dash, CLI11 with two: this table knows both, and how many words follow.
 struct Row {
-  std::string_view name;     ///< without dashes
+  std::string_view name;      ///< without dashes
   std::string_view spelling;  ///< as --help shows it
   int values;
   For reader;
@@ -74,8 +74,9 @@ Exit status:
 
 /// Gmsh's names (notes 3.2). Gmsh prints a complaint about others and goes on, which nobody would see.
 constexpr std::array<std::string_view, 21> kAlgorithms = {
-    "auto",   "meshadapt", "iso",     "del2d",  "tri",    "delaunay", "front2d", "frontal", "bamg",    "delquad",   "pack",
-    "quadqs", "frontopt2d", "initial2d", "del3d", "front3d", "netgen", "mmg3d", "rtree3d", "hxt",     "initial3d"};
+    "auto",    "meshadapt", "iso",     "del2d", "tri",     "delaunay",   "front2d",
+    "frontal", "bamg",      "delquad", "pack",  "quadqs",  "frontopt2d", "initial2d",
+    "del3d",   "front3d",   "netgen",  "mmg3d", "rtree3d", "hxt",        "initial3d"};
 
 bool is_number(const std::string& text) {
   double value = 0;
@@ -100,7 +101,8 @@ void check_gmsh_values(const Row& row, const std::vector<std::string>& values) {
     refuse("a positive number");
   if (row.name != "algo") return;
   std::string name = values[0];
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::find(kAlgorithms.begin(), kAlgorithms.end(), name) == kAlgorithms.end())
     refuse("an algorithm of Gmsh (front2d, del2d, meshadapt, delquad, pack, ...)");
 }
@@ -130,8 +132,7 @@ std::vector<std::string> translate(const std::vector<std::string>& arguments, Re
     const std::string& word = arguments[i];
     std::vector<std::string> values;
     if (equals != std::string::npos) values.push_back(arguments[i].substr(equals + 1));
-    while (static_cast<int>(values.size()) < row->values && i + 1 < arguments.size())
-      values.push_back(arguments[++i]);
+    while (static_cast<int>(values.size()) < row->values && i + 1 < arguments.size()) values.push_back(arguments[++i]);
     if (static_cast<int>(values.size()) != row->values)
       throw UsageError(fmt::format("'{}' needs {} value{}", word, row->values, row->values == 1 ? "" : "s"));
     if (row->reader == For::kGmsh)

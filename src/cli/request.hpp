@@ -14,8 +14,8 @@ struct Request {
   int verbosity = 0;
   bool help = false, version = false;
   bool algorithm_chosen = false;
-  std::optional<double> msh_version;  ///< of -setnumber Mesh.MshFileVersion
-  std::optional<bool> binary;         ///< of -bin, or of -setnumber Mesh.Binary
+  std::optional<double> msh_version;        ///< of -setnumber Mesh.MshFileVersion
+  std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary
   std::vector<std::string> gmsh_arguments;  ///< for Gmsh, in their order: the last one of a kind wins
 };
 

@@ -15,9 +15,9 @@
 #include "gmsh/staged_file.hpp"
 #include "gmsh/write.hpp"
 #include "qmorph/gmsh.hpp"
-#include "report/version.hpp"
 #include "report/stats.hpp"
 #include "report/summary.hpp"
+#include "report/version.hpp"
 
 namespace qmorph::cli {
 namespace {
@@ -61,8 +61,8 @@ void print_outcome(const ModelReport& model, std::ostream& err) {
     err << "qmorph: nothing to convert: all surfaces are quads already\n";
 }
 
-void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,
-                   double seconds, std::ostream& err) {
+void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model, double seconds,
+                   std::ostream& err) {
   if (request.verbosity >= 2)
     for (const std::string& warning : opened.warnings) err << "Gmsh: " << warning << '\n';
   if (request.verbosity >= 1) {

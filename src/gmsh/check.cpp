@@ -96,8 +96,7 @@ std::string find_bad_reference(const Patch& patch, const QuadMesh& mesh) {
   return {};
 }
 
-std::string find_moved_node(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows,
-                            Index node) {
+std::string find_moved_node(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows, Index node) {
   if (rows[node] == kNone) return "a fixed node is gone " + at(patch.points[node]);
   if (mesh.points[rows[node]] != patch.points[node]) return "a fixed node has moved " + at(patch.points[node]);
   return {};
@@ -133,10 +132,9 @@ std::string find_lost_edge(const Patch& patch, const QuadMesh& mesh, const std::
   const ResultEdges edges = collect_edges(mesh);
   if (!edges.defect.empty()) return edges.defect;
   std::vector<Edge> outer;
-  for_each_edge(sorted_sides(patch.points.size(), patch.triangles, patch.quads),
-                [&](std::span<const Side> edge) {
-                  if (edge.size() == 1) outer.emplace_back(edge[0].low, edge[0].high);
-                });
+  for_each_edge(sorted_sides(patch.points.size(), patch.triangles, patch.quads), [&](std::span<const Side> edge) {
+    if (edge.size() == 1) outer.emplace_back(edge[0].low, edge[0].high);
+  });
   const auto check = [&](Index a, Index b, bool is_outer) -> std::string {
     for (Index node : {a, b})
       if (std::string moved = find_moved_node(patch, mesh, rows, node); !moved.empty()) return moved;

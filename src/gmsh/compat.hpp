@@ -7,8 +7,7 @@
 #include <string>
 
 #define QMORPH_GMSH_AT_LEAST(major, minor) \
-  (GMSH_API_VERSION_MAJOR > (major) ||     \
-   (GMSH_API_VERSION_MAJOR == (major) && GMSH_API_VERSION_MINOR >= (minor)))
+  (GMSH_API_VERSION_MAJOR > (major) || (GMSH_API_VERSION_MAJOR == (major) && GMSH_API_VERSION_MINOR >= (minor)))
 
 namespace qmorph::adapter {
 

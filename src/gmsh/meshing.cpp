@@ -67,7 +67,8 @@ std::vector<int> flagged_surfaces() {
   return {tags.begin(), tags.end()};
 }
 
-/// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle of 0 accepts no pair.
+/// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle of 0
+/// accepts no pair.
 void forbid_pairing(const std::vector<int>& surfaces) {
   const ScratchFile script(".geo");
   {
@@ -82,9 +83,10 @@ void forbid_pairing(const std::vector<int>& surfaces) {
 void refuse_high_order() {
   const double order = get_option("Mesh.ElementOrder");
   if (order > 1)
-    throw InputError(fmt::format("Mesh.ElementOrder is {:g}, and only linear meshes can be converted for now; set "
-                                 "Mesh.ElementOrder = 1",
-                                 order));
+    throw InputError(
+        fmt::format("Mesh.ElementOrder is {:g}, and only linear meshes can be converted for now; set "
+                    "Mesh.ElementOrder = 1",
+                    order));
 }
 
 /// Options that would make Gmsh recombine by itself, for the time of the meshing.
@@ -105,8 +107,7 @@ void check_every_surface_has_elements() {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
     ::gmsh::model::mesh::getElements(types, tags, nodes, 2, tag);
-    if (types.empty() && area_or_one(tag) > 0)
-      throw InputError(fmt::format("Gmsh made no element on surface {}", tag));
+    if (types.empty() && area_or_one(tag) > 0) throw InputError(fmt::format("Gmsh made no element on surface {}", tag));
   }
 }
 

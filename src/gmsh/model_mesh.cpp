@@ -70,8 +70,8 @@ void check_low_elements(const ModelMesh& mesh) {
       for (std::size_t i = 0; i < block.nodes.size(); ++i)
         if (mesh.rows.find(block.nodes[i]) == kNone)
           throw InputError(fmt::format("element {} of {} {} uses node {}, which the mesh does not have",
-                                       block.tags[i / block.nodes_per_element],
-                                       entity.dim == 0 ? "point" : "curve", entity.tag, block.nodes[i]));
+                                       block.tags[i / block.nodes_per_element], entity.dim == 0 ? "point" : "curve",
+                                       entity.tag, block.nodes[i]));
   }
 }
 
@@ -124,8 +124,7 @@ NodeUse find_node_use(const ModelMesh& mesh, const std::vector<std::size_t>& pin
   const std::size_t count = mesh.tags.size();
   NodeUse use;
   use.surface.assign(count, kNobody);
-  for (auto* flags : {&use.several, &use.point, &use.line, &use.volume, &use.pinned})
-    flags->assign(count, false);
+  for (auto* flags : {&use.several, &use.point, &use.line, &use.volume, &use.pinned}) flags->assign(count, false);
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
     const EntityMesh& entity = mesh.entities[e];
     for (const ElementBlock& block : entity.blocks)
@@ -153,8 +152,7 @@ bool is_misclassified(const ModelMesh& mesh, const NodeUse& use) {
     if (mesh.entities[owner].dim < 2) continue;
     if (use.point[row] || use.line[row]) return true;
     // A node of a volume or of another surface, which only this one surface uses.
-    if (use.surface[row] != kNobody && use.surface[row] != owner && !use.several[row] && !use.volume[row])
-      return true;
+    if (use.surface[row] != kNobody && use.surface[row] != owner && !use.several[row] && !use.volume[row]) return true;
   }
   return false;
 }

@@ -59,9 +59,9 @@ class NodeRows {
 struct ModelMesh {
   std::vector<EntityMesh> entities;  ///< by dimension, then tag
   NodeRows rows;
-  std::vector<std::size_t> tags;           ///< of a row
-  std::vector<Eigen::Vector3d> points;     ///< of a row
-  std::vector<std::uint32_t> owner;        ///< of a row: an index into `entities`
+  std::vector<std::size_t> tags;        ///< of a row
+  std::vector<Eigen::Vector3d> points;  ///< of a row
+  std::vector<std::uint32_t> owner;     ///< of a row: an index into `entities`
   std::size_t max_node_tag = 0, max_element_tag = 0;
 };
 
@@ -73,10 +73,10 @@ inline constexpr std::uint32_t kNobody = 0xffffffff;
 
 /// Which entities' elements use a node.
 struct NodeUse {
-  std::vector<std::uint32_t> surface;   ///< first entity of dimension 2 whose elements use the row, or kNobody
-  std::vector<bool> several;            ///< elements of two surfaces or more use it
+  std::vector<std::uint32_t> surface;  ///< first entity of dimension 2 whose elements use the row, or kNobody
+  std::vector<bool> several;           ///< elements of two surfaces or more use it
   std::vector<bool> point, line, volume;
-  std::vector<bool> pinned;             ///< on a point or a curve, by owner or by use
+  std::vector<bool> pinned;  ///< on a point or a curve, by owner or by use
 };
 
 /// \param pinned_tags nodes that are known to lie on points and curves although nothing says so any more.

@@ -147,8 +147,7 @@ std::vector<PeriodicLink> find_periodic_links(const ModelMesh& mesh) {
   for (const EntityMesh& entity : mesh.entities) {
     PeriodicLink link{entity.dim, entity.tag, entity.tag, {}, {}};
     std::vector<std::size_t> nodes, masters;
-    ::gmsh::model::mesh::getPeriodicNodes(link.dim, link.tag, link.master, nodes, masters, link.transformation,
-                                          true);
+    ::gmsh::model::mesh::getPeriodicNodes(link.dim, link.tag, link.master, nodes, masters, link.transformation, true);
     if (link.master == link.tag || nodes.size() != masters.size()) continue;
     for (std::size_t i = 0; i < nodes.size(); ++i) link.nodes.emplace_back(nodes[i], masters[i]);
     std::sort(link.nodes.begin(), link.nodes.end());  // Gmsh's order depends on where the nodes are in memory

@@ -83,8 +83,8 @@ void refuse_mixed_groups(const MshHeader& header) {
   }
 }
 
-/// "Unknown entity 7 of dimension 1": what a file without $Entities makes Gmsh say when elements are on an entity that no node
-/// is on. \return dimension and tag
+/// "Unknown entity 7 of dimension 1": what a file without $Entities makes Gmsh say when elements are on an entity
+/// that no node is on. \return dimension and tag
 std::optional<std::pair<int, int>> unknown_entity(const StageLog& log) {
   static const std::regex complaint(R"(Unknown entity (\d+) of dimension (\d+))");
   for (const std::string& error : log.errors) {
@@ -163,7 +163,8 @@ OpenedModel open_model(const std::string& path) {
   opened.warnings = log.warnings;
   std::vector<int> views;
   ::gmsh::view::getTags(views);
-  if (!views.empty()) opened.warnings.push_back("the data in the file (views) is not part of the mesh and is not written");
+  if (!views.empty())
+    opened.warnings.push_back("the data in the file (views) is not part of the mesh and is not written");
   opened.open_seconds = seconds_since(start);
 
   opened.had_mesh = opened.msh.version != 0 || surfaces_have_elements();

@@ -23,8 +23,8 @@ void check_readable(const std::string& path);
 
 /// What `open_model` found.
 struct OpenedModel {
-  MshHeader msh;           ///< version 0: not a .msh file
-  bool had_mesh = false;   ///< the surfaces' elements come from the file, not from Gmsh's mesher
+  MshHeader msh;          ///< version 0: not a .msh file
+  bool had_mesh = false;  ///< the surfaces' elements come from the file, not from Gmsh's mesher
   std::vector<std::string> warnings;
   double open_seconds = 0, mesh_seconds = 0;
 };

@@ -11,8 +11,8 @@ namespace qmorph::adapter {
 
 /// What the elements of a surface, seen as a graph over edges, are.
 struct Orientation {
-  std::vector<Index> part;   ///< of each element; parts are numbered in the order of their first element
-  std::vector<bool> flip;    ///< elements to turn, always the smaller share of their part
+  std::vector<Index> part;  ///< of each element; parts are numbered in the order of their first element
+  std::vector<bool> flip;   ///< elements to turn, always the smaller share of their part
   Index parts = 0;
   std::size_t flipped = 0;
   /// Set if something is wrong, and then nothing else counts: an edge with more than two elements, or one where no

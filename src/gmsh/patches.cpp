@@ -11,9 +11,7 @@
 namespace qmorph::adapter {
 namespace {
 
-std::uint64_t edge_key(Index a, Index b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
+std::uint64_t edge_key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 /// The elements of one surface with their corners as rows of the model's nodes.
 struct Elements {
@@ -37,11 +35,11 @@ std::vector<std::array<Index, N>> read_corners(const ModelMesh& mesh, const Elem
   for (std::size_t i = 0; i < block.nodes.size(); ++i) {
     const Index row = mesh.rows.find(block.nodes[i]);
     if (row == kNone)
-      throw SurfaceError(fmt::format("element {} uses node {}, which the mesh does not have",
-                                     block.tags[i / N], block.nodes[i]));
+      throw SurfaceError(
+          fmt::format("element {} uses node {}, which the mesh does not have", block.tags[i / N], block.nodes[i]));
     if (!mesh.points[row].allFinite())
-      throw SurfaceError(fmt::format("{} is nowhere: its coordinates are not finite numbers",
-                                     describe_node(mesh, row)));
+      throw SurfaceError(
+          fmt::format("{} is nowhere: its coordinates are not finite numbers", describe_node(mesh, row)));
     elements[i / N][i % N] = row;
   }
   return elements;
@@ -77,9 +75,10 @@ Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
 void refuse_volume(const ModelMesh& mesh, const NodeUse& use, const Elements& elements) {
   for (const auto& triangle : elements.triangles)
     if (use.volume[triangle[0]] && use.volume[triangle[1]] && use.volume[triangle[2]])
-      throw SurfaceError(fmt::format("it bounds a volume that is meshed already (at {}); convert the surfaces "
-                                     "first, and mesh the volume afterwards",
-                                     describe_node(mesh, triangle[0])));
+      throw SurfaceError(
+          fmt::format("it bounds a volume that is meshed already (at {}); convert the surfaces "
+                      "first, and mesh the volume afterwards",
+                      describe_node(mesh, triangle[0])));
 }
 
 /// Numbers rows 0, 1, 2, ... in the order in which they come.
@@ -197,8 +196,8 @@ void add_constraints(const std::vector<std::array<Index, N>>& elements, const Fi
     }
 }
 
-void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges,
-                     std::uint32_t entity, const std::vector<Index>& touching, SurfacePart& part) {
+void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
+                     const std::vector<Index>& touching, SurfacePart& part) {
   add_constraints(part.patch.triangles, fixed_edges, part);
   add_constraints(part.patch.quads, fixed_edges, part);
   auto& constraints = part.patch.constraints;
@@ -246,20 +245,19 @@ FixedEdges::FixedEdges(const ModelMesh& mesh, const NodeUse& use) {
 }
 
 bool FixedEdges::contains(Index row_a, Index row_b) const {
-  return touched_[row_a] && touched_[row_b] &&
-         std::binary_search(keys_.begin(), keys_.end(), edge_key(row_a, row_b));
+  return touched_[row_a] && touched_[row_b] && std::binary_search(keys_.begin(), keys_.end(), edge_key(row_a, row_b));
 }
 
-SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges,
-                         std::uint32_t entity, std::vector<Index>& local) {
+SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
+                         std::vector<Index>& local) {
   SurfaceMesh surface;
   surface.entity = entity;
   const Elements elements = read_elements(mesh, mesh.entities[entity]);
   refuse_volume(mesh, use, elements);
   const Orientation orientation = orient_surface(mesh, elements, local);
   if (orientation.flipped)
-    surface.warnings.push_back(fmt::format("{} elements were oriented against their neighbours and have been turned",
-                                           orientation.flipped));
+    surface.warnings.push_back(
+        fmt::format("{} elements were oriented against their neighbours and have been turned", orientation.flipped));
   const std::vector<Index> touching = nodes_of_several_parts(elements, orientation, local);
   for (const std::vector<Index>& members : members_of_parts(orientation)) {
     SurfacePart part = make_part(mesh, elements, orientation, members, local);

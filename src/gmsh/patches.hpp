@@ -14,8 +14,8 @@ namespace qmorph::adapter {
 /// different orientations, which a file with one elementary tag for everything does have.
 struct SurfacePart {
   Patch patch;
-  std::vector<Index> rows;              ///< of the model's nodes, one for each point of the patch
-  std::vector<std::size_t> quad_tags;   ///< of the patch's quads
+  std::vector<Index> rows;             ///< of the model's nodes, one for each point of the patch
+  std::vector<std::size_t> quad_tags;  ///< of the patch's quads
 };
 
 /// One surface, ready to convert.
@@ -43,7 +43,7 @@ class FixedEdges {
 ///         is not a manifold, has no orientation, has a node at no place (NaN), or refers to a
 ///         node that does not exist.
 /// `local` is scratch: as long as the mesh has nodes, all kNone before and after.
-SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges,
-                         std::uint32_t entity, std::vector<Index>& local);
+SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
+                         std::vector<Index>& local);
 
 }  // namespace qmorph::adapter

@@ -61,9 +61,10 @@ ReadModel read_model(ModelReport& report) {
 void refuse_ghost_cells(const ModelMesh& mesh) {
   for (const EntityMesh& entity : mesh.entities)
     if (entity_type(entity.dim, entity.tag).rfind("Ghost", 0) == 0)
-      throw InputError(fmt::format("the mesh is partitioned with ghost cells (entity {} of dimension {}); partition it "
-                                   "after the conversion",
-                                   entity.tag, entity.dim));
+      throw InputError(
+          fmt::format("the mesh is partitioned with ghost cells (entity {} of dimension {}); partition it "
+                      "after the conversion",
+                      entity.tag, entity.dim));
 }
 
 std::string group_name(int surface) {
@@ -254,9 +255,8 @@ std::vector<std::uint32_t> select_surfaces(const ModelMesh& mesh, const std::vec
 }  // namespace
 
 std::size_t ModelReport::count(SurfaceOutcome outcome) const {
-  return static_cast<std::size_t>(std::count_if(surfaces.begin(), surfaces.end(), [outcome](const SurfaceReport& s) {
-    return s.outcome == outcome;
-  }));
+  return static_cast<std::size_t>(std::count_if(surfaces.begin(), surfaces.end(),
+                                                [outcome](const SurfaceReport& s) { return s.outcome == outcome; }));
 }
 
 ModelReport recombine(const std::vector<int>& surfaces, const Options& options) {

@@ -83,8 +83,8 @@ EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted,
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const SurfacePart& part = converted.surface.parts[p];
     const QuadMesh& result = converted.results[p];
-    const auto tags = place_nodes(mesh, converted.surface.entity, part, result, converted.results.size() > 1,
-                                  node_tags, placed, entity);
+    const auto tags = place_nodes(mesh, converted.surface.entity, part, result, converted.results.size() > 1, node_tags,
+                                  placed, entity);
     for (const auto& triangle : result.triangles)
       for (Index i : triangle) triangles.nodes.push_back(tags[i]);
     for (std::size_t q = 0; q < result.quads.size(); ++q) {
@@ -145,8 +145,7 @@ void put_back(const ModelMesh& mesh, const std::vector<EntityMesh>& entities) {
     }
     add_nodes(fresh);
     for (const EntityMesh& before : mesh.entities)
-      if (before.dim == 2 && before.tag == entity.tag && before.node_tags.size() != kept)
-        nodes_are_left_over = true;
+      if (before.dim == 2 && before.tag == entity.tag && before.node_tags.size() != kept) nodes_are_left_over = true;
   }
   for (const EntityMesh& entity : entities) add_elements(entity);
   if (nodes_are_left_over) ::gmsh::model::mesh::reclassifyNodes();
@@ -175,8 +174,7 @@ std::vector<std::set<std::uint32_t>> find_users(const ModelMesh& mesh) {
 std::set<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::set<std::uint32_t>& wanted) {
   const auto users = find_users(mesh);
   std::map<std::pair<int, int>, std::uint32_t> index;
-  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
-    index[{mesh.entities[e].dim, mesh.entities[e].tag}] = e;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) index[{mesh.entities[e].dim, mesh.entities[e].tag}] = e;
   std::set<std::uint32_t> cleared;
   std::vector<std::uint32_t> open(wanted.begin(), wanted.end());
   while (!open.empty()) {
@@ -207,8 +205,7 @@ void put_back(const ModelMesh& mesh, const std::vector<EntityMesh>& entities) {
   for (const auto& [e, entity] : fresh) wanted.insert(e);
 
   std::vector<const EntityMesh*> refill;
-  for (std::uint32_t e : find_cleared(mesh, wanted))
-    refill.push_back(fresh.count(e) ? fresh.at(e) : &mesh.entities[e]);
+  for (std::uint32_t e : find_cleared(mesh, wanted)) refill.push_back(fresh.count(e) ? fresh.at(e) : &mesh.entities[e]);
   ::gmsh::vectorpair to_clear;
   for (auto it = refill.rbegin(); it != refill.rend(); ++it)  // volumes come last in the model
     to_clear.emplace_back((*it)->dim, (*it)->tag);
@@ -229,8 +226,7 @@ void replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>
   for (const ConvertedSurface& converted : surfaces)
     entities.push_back(make_entity(mesh, converted, node_tags, element_tags));
   const StageLog log = run_logged([&] { put_back(mesh, entities); });
-  if (!log.errors.empty())
-    throw InputError("Gmsh cannot take the new elements back: " + first_errors(log));
+  if (!log.errors.empty()) throw InputError("Gmsh cannot take the new elements back: " + first_errors(log));
   // Gmsh says it as a warning, and then nothing has been cleared (notes 1.3).
   for (const std::string& warning : log.warnings)
     if (warning.find("Cannot delete mesh") != std::string::npos)

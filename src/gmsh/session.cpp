@@ -72,8 +72,7 @@ StageLog run_logged(const std::function<void()>& stage) {
 std::string first_errors(const StageLog& log) {
   if (log.errors.empty()) return "no reason given";
   std::string text;
-  for (std::size_t i = 0; i < log.errors.size() && i < kErrorsToShow; ++i)
-    text += (i ? "; " : "") + log.errors[i];
+  for (std::size_t i = 0; i < log.errors.size() && i < kErrorsToShow; ++i) text += (i ? "; " : "") + log.errors[i];
   if (log.errors.size() > kErrorsToShow)
     text += " (and " + std::to_string(log.errors.size() - kErrorsToShow) + " more)";
   return text;
@@ -106,8 +105,7 @@ void use_one_thread() {
   for (const char* name : {"Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D"}) set_option(name, 1);
 }
 
-ScopedOption::ScopedOption(std::string name, double value)
-    : name_(std::move(name)), before_(get_option(name_)) {
+ScopedOption::ScopedOption(std::string name, double value) : name_(std::move(name)), before_(get_option(name_)) {
   set_option(name_, value);
 }
 

@@ -47,8 +47,8 @@ class QuietErrors {
 double get_option(const std::string& name);
 void set_option(const std::string& name, double value);
 
-/// One thread for Gmsh: its log is not protected before 4.14, and only with one is its mesh always the same (notes 6.3).
-/// To be said again after a script has run, since scripts may ask for more.
+/// One thread for Gmsh: its log is not protected before 4.14, and only with one is its mesh always the same
+/// (notes 6.3). To be said again after a script has run, since scripts may ask for more.
 void use_one_thread();
 
 /// Sets a numeric option for the time of its life.

@@ -26,8 +26,7 @@ template <class Visit>
 void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
   for (std::size_t first = 0; first < sides.size();) {
     std::size_t last = first + 1;
-    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high)
-      ++last;
+    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
     visit(std::span<const Side>(sides).subspan(first, last - first));
     first = last;
   }

@@ -43,8 +43,7 @@ bool sync_to_disk(const std::string& path) {
 
 bool disk_is_full(const std::string& path) {
   struct statvfs room {};
-  return ::statvfs(path.c_str(), &room) == 0 && room.f_blocks > 0 &&
-         room.f_bavail * room.f_frsize < kLeastRoom;
+  return ::statvfs(path.c_str(), &room) == 0 && room.f_blocks > 0 && room.f_bavail * room.f_frsize < kLeastRoom;
 }
 
 }  // namespace

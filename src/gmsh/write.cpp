@@ -30,21 +30,21 @@ struct FormatRow {
 
 /// Gmsh's mesh formats (notes 3.2). The extension makes gmsh::write take the format; the name is what -format says.
 constexpr std::array kFormats = {
-    FormatRow{"msh", ".msh", -1, true},      FormatRow{"msh1", ".msh1", 1, true},
-    FormatRow{"msh2", ".msh2", 2.2, true},   FormatRow{"msh22", ".msh22", 2.2, true},
-    FormatRow{"msh3", ".msh3", 3, true},     FormatRow{"msh4", ".msh4", 4.1, true},
-    FormatRow{"msh40", ".msh40", 4, true},   FormatRow{"msh41", ".msh41", 4.1, true},
-    FormatRow{"unv", ".unv", 0, true},       FormatRow{"vtk", ".vtk", 0, true},
-    FormatRow{"mail", ".mail", 0, true},     FormatRow{"mesh", ".mesh", 0, true},
-    FormatRow{"bdf", ".bdf", 0, true},       FormatRow{"cgns", ".cgns", 0, true},
-    FormatRow{"med", ".med", 0, true},       FormatRow{"diff", ".diff", 0, true},
-    FormatRow{"ir3", ".ir3", 0, true},       FormatRow{"inp", ".inp", 0, true},
-    FormatRow{"su2", ".su2", 0, true},       FormatRow{"dat", ".dat", 0, true},
-    FormatRow{"m", ".m", 0, true},           FormatRow{"key", ".key", 0, true},
-    FormatRow{"off", ".off", 0, true},       FormatRow{"obj", ".obj", 0, true},
-    FormatRow{"stl", ".stl", 0, false},      FormatRow{"ply2", ".ply2", 0, false},
-    FormatRow{"p3d", ".p3d", 0, false},      FormatRow{"celum", ".celum", 0, false},
-    FormatRow{"neu", ".neu", 0, false},      FormatRow{"wrl", ".wrl", 0, false},
+    FormatRow{"msh", ".msh", -1, true},    FormatRow{"msh1", ".msh1", 1, true},
+    FormatRow{"msh2", ".msh2", 2.2, true}, FormatRow{"msh22", ".msh22", 2.2, true},
+    FormatRow{"msh3", ".msh3", 3, true},   FormatRow{"msh4", ".msh4", 4.1, true},
+    FormatRow{"msh40", ".msh40", 4, true}, FormatRow{"msh41", ".msh41", 4.1, true},
+    FormatRow{"unv", ".unv", 0, true},     FormatRow{"vtk", ".vtk", 0, true},
+    FormatRow{"mail", ".mail", 0, true},   FormatRow{"mesh", ".mesh", 0, true},
+    FormatRow{"bdf", ".bdf", 0, true},     FormatRow{"cgns", ".cgns", 0, true},
+    FormatRow{"med", ".med", 0, true},     FormatRow{"diff", ".diff", 0, true},
+    FormatRow{"ir3", ".ir3", 0, true},     FormatRow{"inp", ".inp", 0, true},
+    FormatRow{"su2", ".su2", 0, true},     FormatRow{"dat", ".dat", 0, true},
+    FormatRow{"m", ".m", 0, true},         FormatRow{"key", ".key", 0, true},
+    FormatRow{"off", ".off", 0, true},     FormatRow{"obj", ".obj", 0, true},
+    FormatRow{"stl", ".stl", 0, false},    FormatRow{"ply2", ".ply2", 0, false},
+    FormatRow{"p3d", ".p3d", 0, false},    FormatRow{"celum", ".celum", 0, false},
+    FormatRow{"neu", ".neu", 0, false},    FormatRow{"wrl", ".wrl", 0, false},
     FormatRow{"x3d", ".x3d", 0, false},
 };
 
@@ -63,7 +63,8 @@ OutputFormat make_format(const FormatRow& row) {
 OutputFormat format_by_name(const std::string& name) {
   for (const FormatRow& row : kFormats)
     if (row.name == name) return make_format(row);
-  throw UsageError(fmt::format("unknown format '{}' (one of msh, msh2, msh4, vtk, inp, su2, unv, bdf, mesh, ...)", name));
+  throw UsageError(
+      fmt::format("unknown format '{}' (one of msh, msh2, msh4, vtk, inp, su2, unv, bdf, mesh, ...)", name));
 }
 
 OutputFormat format_by_extension(const std::string& path) {
@@ -103,8 +104,8 @@ double choose_version(const OutputFormat& format, const OpenedModel& opened, con
   return ungrouped;
 }
 
-/// Before version 4, Mesh.SaveAll drops the groups and its absence drops what is in no group (notes 1.8). A group with the number 0 is
-/// what these formats write, and read, for "none".
+/// Before version 4, Mesh.SaveAll drops the groups and its absence drops what is in no group (notes 1.8).
+/// A group with the number 0 is what these formats write, and read, for "none".
 class GroupZero {
  public:
   GroupZero() {

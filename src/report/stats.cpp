@@ -53,9 +53,12 @@ Json engine_json(const ConversionStats& s) {
 
 const char* outcome_name(SurfaceOutcome outcome) {
   switch (outcome) {
-    case SurfaceOutcome::kConverted: return "converted";
-    case SurfaceOutcome::kAlreadyQuads: return "already quads";
-    case SurfaceOutcome::kLeft: return "left as it was";
+    case SurfaceOutcome::kConverted:
+      return "converted";
+    case SurfaceOutcome::kAlreadyQuads:
+      return "already quads";
+    case SurfaceOutcome::kLeft:
+      return "left as it was";
   }
   return "";
 }
@@ -85,10 +88,10 @@ std::string stats_json(const ModelReport& model, const RunFacts& facts) {
   json["output"] = facts.output;
   json["arguments"] = facts.arguments;
   json["exit_status"] = facts.exit_status;
-  json["seconds"] = {{"open", facts.open_seconds},       {"mesh", facts.mesh_seconds},
-                     {"read", model.read_seconds},       {"convert", model.convert_seconds},
-                     {"check", model.check_seconds},     {"replace", model.replace_seconds},
-                     {"write", facts.write_seconds},     {"total", facts.total_seconds}};
+  json["seconds"] = {{"open", facts.open_seconds},   {"mesh", facts.mesh_seconds},
+                     {"read", model.read_seconds},   {"convert", model.convert_seconds},
+                     {"check", model.check_seconds}, {"replace", model.replace_seconds},
+                     {"write", facts.write_seconds}, {"total", facts.total_seconds}};
   json["warnings"] = model.warnings;
   json["total"] = quality_json(model.total);
   json["surfaces"] = Json::array();

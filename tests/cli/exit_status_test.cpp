@@ -17,7 +17,8 @@ namespace {
 
 bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-constexpr const char* kSquare = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
+constexpr const char* kSquare =
+    "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
 
 /// A directory with an input and an earlier output, both of which must survive.
 struct Scene {
@@ -76,7 +77,8 @@ TEST_CASE("status 2: inputs that are none") {
        "Curve Loop(1)={1,2};\nPlane Surface(1)={1};\n",
        "cannot mesh"},
       {"bow.geo",
-       "Point(1)={0,0,0,1}; Point(2)={1,1,0,1}; Point(3)={1,0,0,1}; Point(4)={0,1,0,1};\nLine(1)={1,2}; Line(2)={2,3};\n"
+       "Point(1)={0,0,0,1}; Point(2)={1,1,0,1}; Point(3)={1,0,0,1}; Point(4)={0,1,0,1};\nLine(1)={1,2}; "
+       "Line(2)={2,3};\n"
        "Line(3)={3,4}; Line(4)={4,1};\nCurve Loop(1)={1,2,3,4};\nPlane Surface(1)={1};\n",
        "cannot mesh"},
   };
@@ -116,7 +118,8 @@ TEST_CASE("status 4: nothing to convert") {
 
 TEST_CASE("status 5: places and formats that cannot be") {
   Scene scene("in.geo", kSquare);
-  scene.expect(run_qmorph({scene.input, "-o", "/no/such/directory/out.msh"}), 5, "there is no directory /no/such/directory");
+  scene.expect(run_qmorph({scene.input, "-o", "/no/such/directory/out.msh"}), 5,
+               "there is no directory /no/such/directory");
   scene.expect(run_qmorph({scene.input, "-o", scene.directory / "out.xyz"}), 5, "unknown extension '.xyz'");
   scene.expect(run_qmorph({scene.input, "-o", scene.directory / "out"}), 5, "unknown extension ''");
   scene.expect(run_qmorph({scene.input, "-o", scene.directory / "out.stl"}), 5, "the format stl cannot hold quads");

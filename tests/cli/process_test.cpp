@@ -19,15 +19,16 @@ using namespace qmorph::test;
 
 namespace {
 
-constexpr const char* kSquare = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
+constexpr const char* kSquare =
+    "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
 
 constexpr const char* kFineSquare =
     "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.03;\n";
 
 /// Exit status of the program with these words, its output in files of the directory.
 int call(const TemporaryDirectory& directory, const std::string& words) {
-  const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", QMORPH_COMMAND, words, directory / "stdout",
-                                          directory / "stderr");
+  const std::string command =
+      fmt::format("'{}' {} >'{}' 2>'{}'", QMORPH_COMMAND, words, directory / "stdout", directory / "stderr");
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -90,7 +91,8 @@ TEST_CASE("process: a full disk is said, and the earlier file is as it was") {
     ::gmsh::model::mesh::refine();
   });
   for (const std::string& input : {in, again})
-    for (const char* options : {"-format msh", "-format msh -bin", "-format msh2", "-format msh2 -bin", "-format vtk", "-format inp"}) {
+    for (const char* options :
+         {"-format msh", "-format msh -bin", "-format msh2", "-format msh2 -bin", "-format vtk", "-format inp"}) {
       CAPTURE(input);
       CAPTURE(options);
       CHECK(call(directory, fmt::format("'{}' {} -o '{}'", input, options, out)) == 5);

@@ -30,8 +30,8 @@ TEST_CASE("request: Gmsh's spelling and the usual one") {
 TEST_CASE("request: what is Gmsh's is passed on in its order") {
   const Request request = parse({"-clmax", "0.1", "in.geo", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring",
                                  "name", "-o", "-algo", "del2d", "-setnumber", "Mesh.MshFileVersion", "2.2"});
-  CHECK(request.gmsh_arguments == Words{"-clmax", "0.1", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring", "name",
-                                        "-o", "-algo", "del2d", "-setnumber", "Mesh.MshFileVersion", "2.2"});
+  CHECK(request.gmsh_arguments == Words{"-clmax", "0.1", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring",
+                                        "name", "-o", "-algo", "del2d", "-setnumber", "Mesh.MshFileVersion", "2.2"});
   CHECK(request.algorithm_chosen);
   CHECK(request.msh_version == 2.2);
   CHECK(request.output.empty());
@@ -95,8 +95,9 @@ TEST_CASE("request: what makes no sense is named") {
 
 TEST_CASE("request: the help names every option and every exit status") {
   const std::string help = qmorph::cli::help_text();
-  for (const char* word : {"-o FILE", "-format", "-bin", "-clmin", "-clmax", "-clscale", "-setnumber", "-setstring", "-algo", "-v N",
-                           "-2", "-nt", "--surfaces", "--stats", "--help", "--version", "\n  0  ", "\n  1  ", "\n  2  ",
-                           "\n  3  ", "\n  4  ", "\n  5  "})
+  for (const char* word :
+       {"-o FILE", "-format", "-bin",    "-clmin",  "-clmax",     "-clscale", "-setnumber", "-setstring",
+        "-algo",   "-v N",    "-2",      "-nt",     "--surfaces", "--stats",  "--help",     "--version",
+        "\n  0  ", "\n  1  ", "\n  2  ", "\n  3  ", "\n  4  ",    "\n  5  "})
     CHECK(help.find(word) != std::string::npos);
 }

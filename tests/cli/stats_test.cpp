@@ -40,7 +40,8 @@ TEST_CASE("stats: the figures of each surface and of all, and what was asked for
   const json& total = report["total"];
   CHECK(total["scaled_jacobian"]["min"].get<double>() > 0);
   CHECK(total["scaled_jacobian"]["mean"].get<double>() <= 1);
-  for (const char* key : {"eta", "thesis_metric", "angle_deg", "irregular_share", "valence_interior", "valence_boundary"})
+  for (const char* key :
+       {"eta", "thesis_metric", "angle_deg", "irregular_share", "valence_interior", "valence_boundary"})
     CHECK(total.contains(key));
 }
 

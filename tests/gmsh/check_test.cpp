@@ -53,34 +53,35 @@ TEST_CASE("check: a good result has no defect") {
 }
 
 TEST_CASE("check: nodes that may not move") {
-  CHECK(mentions(defect_after([](Case& c) { c.mesh.points[1].x() += 1e-15; }), "a fixed node has moved at (1, 0, 0.5)"));
+  CHECK(
+      mentions(defect_after([](Case& c) { c.mesh.points[1].x() += 1e-15; }), "a fixed node has moved at (1, 0, 0.5)"));
   CHECK(mentions(defect_after([](Case& c) {
-          c.patch.constraints = {{1, 4}};
-          c.mesh.points[4].x() += 0.1;
-        }),
-        "a fixed node has moved at (1, 1, 0.5)"));
+                   c.patch.constraints = {{1, 4}};
+                   c.mesh.points[4].x() += 0.1;
+                 }),
+                 "a fixed node has moved at (1, 1, 0.5)"));
   CHECK(mentions(defect_after([](Case& c) {
-          c.patch.fixed = {4};
-          c.mesh.points[4].x() += 0.1;
-        }),
-        "a fixed node has moved"));
+                   c.patch.fixed = {4};
+                   c.mesh.points[4].x() += 0.1;
+                 }),
+                 "a fixed node has moved"));
 }
 
 TEST_CASE("check: edges that are gone") {
   CHECK(mentions(defect_after([](Case& c) { c.mesh.quads.pop_back(); }), "uses its node at (2, 2, 0.5)"));
   CHECK(mentions(defect_after([](Case& c) {  // half of a quad: one side of it inside is open now
-          const auto quad = c.mesh.quads[3];
-          c.mesh.quads.pop_back();
-          c.mesh.triangles.push_back({quad[1], quad[2], quad[3]});
-        }),
-        "more boundary edges"));
+                   const auto quad = c.mesh.quads[3];
+                   c.mesh.quads.pop_back();
+                   c.mesh.triangles.push_back({quad[1], quad[2], quad[3]});
+                 }),
+                 "more boundary edges"));
   CHECK(mentions(defect_after([](Case& c) {  // the other half: two sides of the outline are gone
-          const auto quad = c.mesh.quads[3];
-          c.mesh.quads.pop_back();
-          c.mesh.triangles.push_back({quad[0], quad[1], quad[3]});
-          c.mesh.triangles.push_back({quad[0], quad[1], quad[2]});
-        }),
-        "overlap"));
+                   const auto quad = c.mesh.quads[3];
+                   c.mesh.quads.pop_back();
+                   c.mesh.triangles.push_back({quad[0], quad[1], quad[3]});
+                   c.mesh.triangles.push_back({quad[0], quad[1], quad[2]});
+                 }),
+                 "overlap"));
   CHECK(mentions(defect_after([](Case& c) { c.patch.constraints = {{0, 4}}; }), "constraint edge from (0, 0, 0.5)"));
 }
 
@@ -103,10 +104,10 @@ TEST_CASE("check: references") {
   CHECK(mentions(defect_after([](Case& c) { c.mesh.source.pop_back(); }), "where its nodes come from"));
   CHECK(mentions(defect_after([](Case& c) { c.mesh.source[4] = 0; }), "one origin"));
   CHECK(mentions(defect_after([](Case& c) {
-          c.mesh.points.emplace_back(7, 7, 7);
-          c.mesh.source.push_back(kNone);
-        }),
-        "uses its node at (7, 7, 7)"));
+                   c.mesh.points.emplace_back(7, 7, 7);
+                   c.mesh.source.push_back(kNone);
+                 }),
+                 "uses its node at (7, 7, 7)"));
 }
 
 TEST_CASE("check: area out of the plane") {

@@ -51,8 +51,9 @@ TEST_CASE("refused: three triangles at one edge") {
   mixed.bad(a, b, mixed.add(0, 1, 0));
   mixed.bad(a, b, mixed.add(0, -1, 0));
   mixed.bad(a, b, mixed.add(0, 0, 1));
-  check_left(mixed, "surface 2: 3 triangles left as they were: it is not a manifold: more than two elements share an "
-                    "edge, from node 26 at (10, 0, 0)");
+  check_left(mixed,
+             "surface 2: 3 triangles left as they were: it is not a manifold: more than two elements share an "
+             "edge, from node 26 at (10, 0, 0)");
 }
 
 TEST_CASE("refused: the same triangle twice, with others around it") {
@@ -124,7 +125,8 @@ TEST_CASE("refused: second order") {
 
 TEST_CASE("refused: second order asked for in a script, before anything is meshed") {
   const TemporaryDirectory directory;
-  write_file(directory / "in.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.ElementOrder = 2;\n");
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.ElementOrder = 2;\n");
   const Result result = run_qmorph({directory / "in.geo"});
   CHECK(result.status == 2);
   CHECK(mentions(result.err, "Mesh.ElementOrder is 2, and only linear meshes"));

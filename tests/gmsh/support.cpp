@@ -53,8 +53,7 @@ std::vector<std::pair<std::size_t, std::vector<Key>>> element_keys(const ModelMe
 std::set<std::set<Key>> boundary(const ModelMesh& mesh, const EntityMesh& entity, Compare compare) {
   std::map<std::set<Key>, int> count;
   for (const auto& [tag, corners] : element_keys(mesh, entity, compare))
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      ++count[{corners[k], corners[(k + 1) % corners.size()]}];
+    for (std::size_t k = 0; k < corners.size(); ++k) ++count[{corners[k], corners[(k + 1) % corners.size()]}];
   std::set<std::set<Key>> edges;
   for (const auto& [edge, uses] : count)
     if (uses == 1) edges.insert(edge);
@@ -87,9 +86,7 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
+void write_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 Result run_qmorph(const std::vector<std::string>& arguments) {
   std::ostringstream out, err;
@@ -117,8 +114,7 @@ Snapshot read_snapshot(const std::string& path) {
   return snapshot;
 }
 
-std::string difference(const Snapshot& before, const Snapshot& after, const std::set<int>& converted,
-                       Compare compare) {
+std::string difference(const Snapshot& before, const Snapshot& after, const std::set<int>& converted, Compare compare) {
   if (before.groups != after.groups) return "physical groups";
   if (before.mesh.entities.size() != after.mesh.entities.size()) return "number of entities";
   for (std::size_t e = 0; e < before.mesh.entities.size(); ++e) {

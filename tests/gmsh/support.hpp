@@ -50,8 +50,8 @@ Snapshot read_snapshot(const std::string& path);
 /// How the nodes of two files are told to be the same.
 enum class Compare { kTags, kCoordinates };
 
-/// What differs between two files besides the inside of the surfaces `converted`: entities, groups, nodes and elements of points,
-/// curves, other surfaces and volumes, and boundary edges of the converted ones. Empty if nothing does.
+/// What differs between two files besides the inside of the surfaces `converted`: entities, groups, nodes and elements of
+/// points, curves, other surfaces and volumes, and boundary edges of the converted ones. Empty if nothing does.
 std::string difference(const Snapshot& before, const Snapshot& after, const std::set<int>& converted,
                        Compare compare = Compare::kTags);
 
@@ -62,15 +62,15 @@ std::pair<std::size_t, std::size_t> element_counts(const Snapshot& snapshot, int
 /// \param version of MSH; everything is saved from 4 on, before only groups if there are any
 void make_msh(const std::string& path, double version, bool binary, const std::function<void()>& build);
 
-/// Two unit squares side by side, sharing curve 2. Surface 1 has an embedded curve 10 and an embedded point 20. Groups: surface 1
-/// "left" (5), curves 4 "inlet" (6) and 10 "crack" (7), point 20 "probe" (8); the rest is in no group.
+/// Two unit squares side by side, sharing curve 2. Surface 1 has an embedded curve 10 and an embedded point 20. Groups:
+/// surface 1 "left" (5), curves 4 "inlet" (6) and 10 "crack" (7), point 20 "probe" (8); the rest is in no group.
 void build_two_squares();
 
 /// A square of n x n cells, each cut into two triangles, as rows of text.
 struct Grid {
   int n = 4;
-  double z = 0;          ///< all points at this height
-  double x = 0;          ///< left edge
+  double z = 0;  ///< all points at this height
+  double x = 0;  ///< left edge
   int first_node = 1;
   std::vector<std::array<double, 3>> nodes() const;
   std::vector<std::array<int, 3>> triangles() const;

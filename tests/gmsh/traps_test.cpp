@@ -30,8 +30,9 @@ bool mentions(const std::string& text, const std::string& part) { return text.fi
 
 TEST_CASE("trap 1: an error of the mesher does not end the process") {
   const TemporaryDirectory directory;
-  write_file(directory / "open.geo", "Point(1)={0,0,0,1}; Point(2)={1,0,0,1}; Point(3)={1,1,0,1};\n"
-                                     "Line(1)={1,2}; Line(2)={2,3};\nCurve Loop(1)={1,2};\nPlane Surface(1)={1};\n");
+  write_file(directory / "open.geo",
+             "Point(1)={0,0,0,1}; Point(2)={1,0,0,1}; Point(3)={1,1,0,1};\n"
+             "Line(1)={1,2}; Line(2)={2,3};\nCurve Loop(1)={1,2};\nPlane Surface(1)={1};\n");
   const Result result = run_qmorph({directory / "open.geo"});
   CHECK(result.status == 2);
   CHECK(mentions(result.err, "closed loop"));
