@@ -112,6 +112,8 @@ void note_gmsh_option(const Row& row, const std::vector<std::string>& values, Re
   request.gmsh_arguments.push_back(fmt::format("-{}", row.name));
   request.gmsh_arguments.insert(request.gmsh_arguments.end(), values.begin(), values.end());
   if (row.name == "algo") request.algorithm_chosen = true;
+  // Names without a dot are constants of the script.
+  if (values[0].find('.') != std::string::npos && row.values == 2) request.option_names.push_back(values[0]);
   if (row.name != "setnumber") return;
   if (values[0] == "Mesh.Algorithm") request.algorithm_chosen = true;
   if (values[0] == "Mesh.MshFileVersion") request.msh_version = std::stod(values[1]);

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <new>
+#include <utility>
 
 #include "cli/progress.hpp"
 #include "cli/request.hpp"
@@ -61,10 +63,19 @@ void print_outcome(const ModelReport& model, std::ostream& err) {
     err << "qmorph: nothing to convert: all surfaces are quads already\n";
 }
 
+/// Gmsh may say one thing about each of a million nodes.
+void print_once(std::string_view prefix, const std::vector<std::string>& lines, std::ostream& err) {
+  std::map<std::string, std::size_t> count;
+  for (const std::string& line : lines) ++count[line];
+  for (const std::string& line : lines) {
+    const std::size_t times = std::exchange(count[line], 0);
+    if (times) err << prefix << line << (times > 1 ? fmt::format(" ({} times)", times) : "") << '\n';
+  }
+}
+
 void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model, double seconds,
                    std::ostream& err) {
-  if (request.verbosity >= 2)
-    for (const std::string& warning : opened.warnings) err << "Gmsh: " << warning << '\n';
+  if (request.verbosity >= 2) print_once("Gmsh: ", opened.warnings, err);
   if (request.verbosity >= 1) {
     for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
     for (const SurfaceReport& surface : model.surfaces) {
@@ -82,6 +93,9 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const adapter::OutputPlan plan = check_places(request);
   const adapter::Session session(request.gmsh_arguments);
   if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
+  for (const std::string& name : request.option_names)
+    if (!adapter::option_exists(name) && request.verbosity >= 1)
+      err << "warning: this Gmsh has no option " << name << '\n';
   const adapter::OpenedModel opened = adapter::open_model(request.input);
 
   Options options;

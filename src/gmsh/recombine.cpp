@@ -18,10 +18,6 @@ namespace {
 
 using namespace adapter;
 
-/// Relative to the surface's extent. Only for the figures of surfaces that are quads already; what is flat enough to be
-/// converted is the engine's decision.
-constexpr double kFlatnessTolerance = 1e-6;
-
 /// Seconds since it was made, or since it was last asked.
 class StopWatch {
  public:
@@ -102,17 +98,6 @@ std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
     (primary_nodes == 4 ? quads : triangles) += block.tags.size();
   }
   return {triangles, quads};
-}
-
-bool is_flat(const Patch& patch, const Eigen::Vector3d& normal) {
-  Eigen::Vector3d low = patch.points[0], high = patch.points[0];
-  double deviation = 0;
-  for (const Eigen::Vector3d& p : patch.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-    deviation = std::max(deviation, std::abs((p - patch.points[0]).dot(normal)));
-  }
-  return deviation <= kFlatnessTolerance * (high - low).norm();
 }
 
 void add_stats(const ConversionStats& from, ConversionStats& to) {
@@ -220,10 +205,8 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) try {
   const SurfaceMesh surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
   QualityAccumulator quality;
   for (const SurfacePart& part : surface.parts) {
-    const Eigen::Vector3d normal = patch_normal(part.patch);
-    if (!is_flat(part.patch, normal)) continue;  // corners against one normal would mean nothing
-    quality.add(part.patch.points, part.patch.triangles, part.patch.quads, normal);
-    total_.add(part.patch.points, part.patch.triangles, part.patch.quads, normal);
+    for (QualityAccumulator* figures : {&quality, &total_})
+      figures->add(part.patch.points, part.patch.triangles, part.patch.quads);
   }
   report.quality = quality.result();
 } catch (const SurfaceError&) {

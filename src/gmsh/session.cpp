@@ -98,6 +98,13 @@ double get_option(const std::string& name) {
   return value;
 }
 
+bool option_exists(const std::string& name) {
+  double number = 0;
+  std::string text;
+  return run_logged([&] { ::gmsh::option::getNumber(name, number); }).errors.empty() ||
+         run_logged([&] { ::gmsh::option::getString(name, text); }).errors.empty();
+}
+
 void set_option(const std::string& name, double value) { ::gmsh::option::setNumber(name, value); }
 
 void use_one_thread() {

@@ -45,6 +45,8 @@ class QuietErrors {
 };
 
 double get_option(const std::string& name);
+/// True for numbers and texts. Gmsh says nothing when one that it does not have is set on the command line.
+bool option_exists(const std::string& name);
 void set_option(const std::string& name, double value);
 
 /// One thread for Gmsh: its log is not protected before 4.14, and only with one is its mesh always the same

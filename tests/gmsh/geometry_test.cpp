@@ -86,7 +86,18 @@ TEST_CASE("geometry: -setnumber, -clscale, -clmin and -algo reach Gmsh") {
   CHECK(nodes_of_curve(run({"-setnumber", "Mesh.MeshSizeMax", "0.2", "-clscale", "0.5"}), 1) > coarse);
   CHECK(nodes_of_curve(run({"-clmax", "0.2", "-clmin", "0.1"}), 1) == coarse);
   run({"-clmax", "0.2", "-algo", "del2d"});
-  run({"-2", "-clmax", "0.2", "-algo", "MeshAdapt", "-setstring", "Mesh.Whatever", "x"});
+  run({"-2", "-clmax", "0.2", "-algo", "MeshAdapt", "-setstring", "name", "x"});
+}
+
+TEST_CASE("geometry: an option that Gmsh does not have is said") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kRectangle);
+  const Result result = run_qmorph({directory / "in.geo", "-clmax", "0.3", "-setnumber", "Mesh.Whatever", "3",
+                                    "-setnumber", "Mesh.Smoothing", "2", "-setstring", "General.DefaultFileName", "x"});
+  CHECK(result.status == 0);
+  CHECK(mentions(result.err, "warning: this Gmsh has no option Mesh.Whatever\n"));
+  CHECK(!mentions(result.err, "Mesh.Smoothing"));
+  CHECK(!mentions(result.err, "General.DefaultFileName"));
 }
 
 TEST_CASE("geometry: transfinite surfaces that are to be recombined come as Gmsh's quads, others as ours") {
