@@ -59,12 +59,14 @@ void add_turns(const Mesh& mesh, const Score& score, Index h, int least, std::ve
 void add_opens(const Mesh& mesh, const Score& score, Index v, int least, std::vector<Candidate>& out) {
   const int n = int(mesh.valence(v));
   if (n < 5) return;
+  // On the boundary the first and the last spoke are the boundary edges, the inside between them.
+  const Index first = mesh.is_boundary(v) ? mesh.rotate_ccw(mesh.out(v)) : mesh.out(v);
   std::vector<Index> spokes;
-  Index h = mesh.out(v);
+  Index h = first;
   do {
     spokes.push_back(h);
     h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  } while (h != first);
   for (int i = 0; i < n; ++i)
     for (int between = 1; between <= n - 3; ++between) {
       const int j = (i + between + 1) % n;
