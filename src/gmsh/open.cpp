@@ -158,7 +158,7 @@ OpenedModel open_model(const std::string& path) {
   auto start = std::chrono::steady_clock::now();
   const StageLog log = open_file(path);
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
-  use_one_thread();
+  take_control();
   refuse_mixed_groups(opened.msh);
   opened.warnings = log.warnings;
   std::vector<int> views;

@@ -21,6 +21,12 @@ bool take(const std::string& line, std::string_view prefix, std::vector<std::str
   return true;
 }
 
+std::string get_last_error() {
+  std::string error;
+  ::gmsh::logger::getLastError(error);
+  return error;
+}
+
 }  // namespace
 
 Session::Session(const std::vector<std::string>& arguments) {
@@ -31,10 +37,7 @@ Session::Session(const std::vector<std::string>& arguments) {
   argv.push_back(nullptr);
   // No configuration files: the same input and options give the same mesh for every user.
   ::gmsh::initialize(static_cast<int>(words.size()), argv.data(), false);
-  set_option("General.Terminal", 0);
-  set_option("General.AbortOnError", 0);
-  set_option("General.Verbosity", kVerbosity);
-  use_one_thread();
+  take_control();
 }
 
 Session::~Session() {
@@ -46,6 +49,7 @@ Session::~Session() {
 
 StageLog run_logged(const std::function<void()>& stage) {
   StageLog log;
+  const std::string last_error = get_last_error();
   ::gmsh::logger::start();
   std::exception_ptr ours;
   try {
@@ -66,6 +70,9 @@ StageLog run_logged(const std::function<void()>& stage) {
     if (take(line, "Warning: ", log.warnings)) continue;
     take(line, "Info: ", log.information);
   }
+  // A script that turns the verbosity off turns the log off, too, but not this.
+  const std::string error = get_last_error();
+  if (log.errors.empty() && !error.empty() && error != last_error) log.errors.push_back(error);
   return log;
 }
 
@@ -107,7 +114,10 @@ bool option_exists(const std::string& name) {
 
 void set_option(const std::string& name, double value) { ::gmsh::option::setNumber(name, value); }
 
-void use_one_thread() {
+void take_control() {
+  set_option("General.Terminal", 0);
+  set_option("General.AbortOnError", 0);
+  set_option("General.Verbosity", kVerbosity);
   set_option("General.NumThreads", 1);
   for (const char* name : {"Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D"}) set_option(name, 1);
 }

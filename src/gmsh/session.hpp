@@ -49,9 +49,10 @@ double get_option(const std::string& name);
 bool option_exists(const std::string& name);
 void set_option(const std::string& name, double value);
 
-/// One thread for Gmsh: its log is not protected before 4.14, and only with one is its mesh always the same
-/// (notes 6.3). To be said again after a script has run, since scripts may ask for more.
-void use_one_thread();
+/// Sets the options that this code relies on: no output of Gmsh's own, errors in the log and nowhere else, one thread
+/// (the log is not protected before 4.14, and only with one is Gmsh's mesh always the same; notes 6.3). To be said again
+/// after a script has run, since a script may set all of them.
+void take_control();
 
 /// Sets a numeric option for the time of its life.
 class ScopedOption {

@@ -39,6 +39,24 @@ TEST_CASE("trap 1: an error of the mesher does not end the process") {
   CHECK(directory.files() == std::vector<std::string>{"open.geo"});
 }
 
+TEST_CASE("trap 1: not even if the script turns off what guards against it") {
+  const std::string guards = "General.AbortOnError = 2;\nGeneral.Verbosity = 0;\n";
+  const TemporaryDirectory directory;
+  write_file(directory / "open.geo",
+             guards +
+                 "Point(1)={0,0,0,1}; Point(2)={1,0,0,1}; Point(3)={1,1,0,1};\n"
+                 "Line(1)={1,2}; Line(2)={2,3};\nCurve Loop(1)={1,2};\nPlane Surface(1)={1};\n");
+  write_file(directory / "syntax.geo", guards + "Point(1) = {0;\n");
+  write_file(directory / "silent.geo", "General.Verbosity = 0;\nPoint(1) = {0;\n");
+  for (const std::string name : {"open.geo", "syntax.geo", "silent.geo"}) {
+    CAPTURE(name);
+    const Result result = run_qmorph({directory / name});
+    CAPTURE(result.err);
+    CHECK(result.status == 2);
+  }
+  CHECK(directory.files().size() == 3);
+}
+
 TEST_CASE("trap 2: a parse error does not lock the library for the next file") {
   const TemporaryDirectory directory;
   write_file(directory / "bad.geo", "Point(1) = {0,\n");
