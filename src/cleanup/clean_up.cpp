@@ -59,13 +59,6 @@ class CleanUp {
     }
   }
 
-  int cost_of(const std::vector<Index>& nodes) const {
-    int cost = 0;
-    for (Index v : nodes)
-      if (mesh_.is_live_vertex(v)) cost += score_.cost(v);
-    return cost;
-  }
-
   double worst_around(const std::vector<Index>& nodes) const {
     double worst = 1;
     for (Index v : nodes)
@@ -86,13 +79,8 @@ class CleanUp {
     collect(c, around);
     const double before = worst_around(around);
     if (!apply(mesh_, c, nodes_)) return false;
-    std::sort(nodes_.begin(), nodes_.end());
-    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     topology::remove_doublets(mesh_, nodes_);
-    std::erase_if(nodes_, [&](Index v) { return !mesh_.is_live_vertex(v); });
-    smoothing::smooth_near(mesh_, relaxing_, nodes_, kRings);
-    for (Index v : nodes_)
-      if (!mesh_.is_valid_star(v)) return false;
+    if (!smoothing::smooth_near(mesh_, relaxing_, nodes_, kRings)) return false;
     return worst_around(nodes_) >= std::min(before, kFloor);
   }
 

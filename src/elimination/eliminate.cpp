@@ -1,7 +1,7 @@
 #include "elimination/eliminate.hpp"
 
 #include <algorithm>
-#include <deque>
+#include <queue>
 
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
@@ -13,8 +13,6 @@ using kernel::Mesh;
 
 /// Rings of neighbours that may give way after a triangle has been passed.
 constexpr int kRings = 3;
-/// Partners that are tried for one triangle, nearest first.
-constexpr int kMostPartners = 12;
 
 std::vector<Index> triangles_of(const Mesh& mesh) {
   std::vector<Index> triangles;
@@ -60,38 +58,62 @@ void pair_triangles(Mesh& mesh) {
   }
 }
 
-/// Breadth-first search over faces, from one triangle to others.
+/// Shortest chains of faces from one triangle to others. Faces on chains that failed cost more, so that the next
+/// search finds a way round.
 class Search {
  public:
-  explicit Search(const Mesh& mesh) : mesh_(mesh), came_by_(mesh.face_slots(), kNone) {}
+  explicit Search(const Mesh& mesh) : mesh_(mesh) {}
 
-  /// Half-edges to cross, one after another, from `start` to the triangle that `skip` + 1 searches would find.
-  /// Empty when there is none.
+  /// Half-edges to cross, one after another, from `start` to the (skip + 1)-nearest triangle. Empty when there
+  /// is none. O(faces visited * log).
   std::vector<Index> path_to_triangle(Index start, int skip) {
-    if (came_by_.size() < mesh_.face_slots()) came_by_.resize(mesh_.face_slots(), kNone);
-    std::vector<Index> visited{start}, path;
+    came_by_.resize(mesh_.face_slots(), kNone);
+    cost_.resize(mesh_.face_slots(), 0);
+    penalty_.resize(mesh_.face_slots(), 0);
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    std::vector<Index> reached{start}, path;
     came_by_[start] = mesh_.half_edge(start);
-    for (std::size_t i = 0; i < visited.size() && path.empty(); ++i) {
-      const Index first = mesh_.half_edge(visited[i]);
+    queue.push({0, start});
+    while (!queue.empty() && path.empty()) {
+      const auto [cost, f] = queue.top();
+      queue.pop();
+      if (cost != cost_[f]) continue;
+      if (f != start && mesh_.is_triangle(f) && skip-- == 0) path = trace(start, f);
+      const Index first = mesh_.half_edge(f);
       Index h = first;
       do {
         const Index beyond = mesh_.face(Mesh::twin(h));
-        if (beyond != kNone && came_by_[beyond] == kNone) {
-          came_by_[beyond] = h;
-          visited.push_back(beyond);
-          if (mesh_.is_triangle(beyond) && skip-- == 0) {
-            path = trace(start, beyond);
-            break;
+        if (beyond != kNone && beyond != start) {
+          const unsigned there = cost + 1 + penalty_[beyond];
+          if (came_by_[beyond] == kNone) reached.push_back(beyond);
+          if (came_by_[beyond] == kNone || there < cost_[beyond]) {
+            came_by_[beyond] = h;
+            cost_[beyond] = there;
+            queue.push({there, beyond});
           }
         }
         h = mesh_.next(h);
       } while (h != first);
     }
-    for (Index f : visited) came_by_[f] = kNone;
+    for (Index f : reached) came_by_[f] = kNone, cost_[f] = 0;
     return path;
   }
 
+  void avoid(const std::vector<Index>& path) {
+    constexpr unsigned kPenalty = 2;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      penalty_[mesh_.face(path[i])] += kPenalty;
+      avoided_.push_back(mesh_.face(path[i]));
+    }
+  }
+  void forgive() {
+    for (Index f : avoided_) penalty_[f] = 0;
+    avoided_.clear();
+  }
+
  private:
+  using Entry = std::pair<unsigned, Index>;  // cost, face
+
   std::vector<Index> trace(Index start, Index end) const {
     std::vector<Index> path;
     for (Index f = end; f != start; f = mesh_.face(came_by_[f])) path.push_back(came_by_[f]);
@@ -100,7 +122,8 @@ class Search {
   }
 
   const Mesh& mesh_;
-  std::vector<Index> came_by_;
+  std::vector<Index> came_by_, avoided_;
+  std::vector<unsigned> cost_, penalty_;
 };
 
 /// The five-sided face of `exit` is cut so that a triangle lies at `exit`, the better of two ways.
@@ -140,12 +163,6 @@ bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::vector<Index>& 
   return true;
 }
 
-bool all_valid_around(const Mesh& mesh, const std::vector<Index>& nodes) {
-  for (Index v : nodes)
-    if (mesh.is_live_vertex(v) && !mesh.is_valid_star(v)) return false;
-  return true;
-}
-
 /// How much of the surroundings gets a layer of quads around it, to give fixed nodes room, before a triangle is passed.
 enum class Room { none, chain, ring, two_rings };
 constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring, Room::two_rings};
@@ -169,26 +186,39 @@ bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<I
   }
   done = done && pass_along(mesh, path, nodes);
   if (done) {
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     topology::remove_doublets(mesh, nodes);
-    std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
-    smoothing::smooth_near(mesh, smoothing, nodes, kRings);
-    done = all_valid_around(mesh, nodes);
+    done = smoothing::smooth_near(mesh, smoothing, nodes, kRings);
   }
   done ? mesh.commit() : mesh.rollback();
   return done;
 }
 
-/// Passes triangle f to the nearest partner that it can be passed to.
-bool pass_somewhere(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
-  for (Room room : kRooms)
-    for (int skip = 0; skip < kMostPartners; ++skip) {
-      const std::vector<Index> path = search.path_to_triangle(f, skip);
+/// How hard to try: how much room is made, how long elements are untangled, how many chains are tried.
+struct Effort {
+  Room room;
+  int sweeps;  ///< times the usual number
+  int chains;
+};
+constexpr Effort kEfforts[] = {{Room::none, 1, 6},  {Room::chain, 1, 6},  {Room::ring, 1, 6},
+                               {Room::chain, 8, 4}, {Room::ring, 8, 4}, {Room::two_rings, 8, 4}};
+
+/// Passes triangle f to a near partner. Little room and little effort come first.
+bool pass_somewhere(Mesh& mesh, SmoothingOptions smoothing, Search& search, Index f) {
+  const int sweeps = smoothing.untangling_sweeps;
+  bool done = false;
+  for (const Effort& effort : kEfforts) {
+    smoothing.untangling_sweeps = effort.sweeps * sweeps;
+    for (int i = 0; i < effort.chains && !done; ++i) {
+      // By turns the nearest partner by another way, and another partner.
+      const std::vector<Index> path = search.path_to_triangle(f, i / 2);
       if (path.empty()) break;
-      if (try_path(mesh, smoothing, path, room)) return true;
+      done = try_path(mesh, smoothing, path, effort.room);
+      if (!done) search.avoid(path);
     }
-  return false;
+    search.forgive();
+    if (done) break;
+  }
+  return done;
 }
 
 }  // namespace

@@ -41,12 +41,12 @@ bool is_movable(const kernel::Mesh& mesh, Index v) {
 
 /// Makes the elements around `nodes` valid by moving the nodes down a regularised energy whose regularisation
 /// fades. [Escobar03] Returns false if some element stays invalid.
-bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes) {
-  constexpr int kSweeps = 40, kHalvings = 8;
+bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
+  constexpr int kHalvings = 8;
   constexpr double kFirstDelta = 0.5, kLastDelta = 1e-4;
-  const double fade = std::pow(kLastDelta / kFirstDelta, 1.0 / kSweeps);
+  const double fade = std::pow(kLastDelta / kFirstDelta, 1.0 / sweeps);
   double share_of_area = kFirstDelta;
-  for (int sweep = 0; sweep < kSweeps; ++sweep, share_of_area *= fade) {
+  for (int sweep = 0; sweep < sweeps; ++sweep, share_of_area *= fade) {
     for (Index v : nodes) {
       const double delta = share_of_area * std::pow(mean_edge(mesh, v), 2);
       const Energy energy = regularised_energy_around(mesh, v, delta);
@@ -139,7 +139,7 @@ void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
   Passes(mesh, options).run(nodes);
 }
 
-void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
+bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
                  int rings) {
   std::vector<Index> around(nodes.begin(), nodes.end());
   for (int ring = 0; ring <= rings; ++ring) {
@@ -158,7 +158,7 @@ void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   }
   std::erase_if(around, [&](Index v) { return !is_movable(mesh, v); });
   if (!std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); }))
-    if (!untangle(mesh, around)) return;
+    if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   for (int pass = 0; pass < options.iterations; ++pass) {
     double moved = 0;
     for (Index v : around) moved = std::max(moved, relax_node(mesh, v));
@@ -166,6 +166,8 @@ void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   }
   for (Index v : around)
     if (smallest_sine_around(mesh, v) < options.target_quality) raise_smallest_sine(mesh, v);
+  const auto is_valid = [&](Index v) { return mesh.is_valid_star(v); };
+  return std::all_of(nodes.begin(), nodes.end(), is_valid);
 }
 
 }  // namespace qmorph::smoothing

@@ -12,8 +12,9 @@ namespace qmorph::smoothing {
 /// where moving nodes can do it. Cost: linear; later passes visit only nodes near one that moved.
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options);
 
-/// The same for a few nodes and `rings` rings of neighbours around them.
-void smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
+/// The same for a few nodes and `rings` rings of neighbours around them. Returns false if an element near them is
+/// not valid in the end; what has been moved by then has to be rolled back by the caller.
+bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
                  int rings);
 
 /// One Newton step of the shape energy at v, shortened until the energy falls. Returns how far v moved,

@@ -14,26 +14,20 @@ Index remove_doublet(kernel::Mesh& mesh, Index v) {
   return mesh.make_face(ring, {f, g});
 }
 
-std::size_t remove_doublets(kernel::Mesh& mesh, std::vector<Index> nodes) {
-  std::size_t removed = 0;
-  while (!nodes.empty()) {
-    const Index v = nodes.back();
-    nodes.pop_back();
+void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {  // grows
+    const Index v = nodes[i];
     if (!mesh.is_live_vertex(v) || mesh.is_boundary(v) || mesh.is_fixed(v) || mesh.valence(v) != 2)
       continue;
     const Index h = mesh.out(v);
     const Index f = mesh.face(h), g = mesh.face(mesh.rotate_ccw(h));
     if (f == g || mesh.degree(f) + mesh.degree(g) < 7) continue;
-    const Index face = remove_doublet(mesh, v);
-    ++removed;
-    const Index start = mesh.half_edge(face);
-    Index e = start;
-    do {
-      nodes.push_back(mesh.origin(e));
-      e = mesh.next(e);
-    } while (e != start);
+    const std::vector<Index> left = nodes_of(mesh, remove_doublet(mesh, v));
+    nodes.insert(nodes.end(), left.begin(), left.end());
   }
-  return removed;
+  std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {

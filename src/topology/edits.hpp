@@ -10,8 +10,8 @@ namespace qmorph::topology {
 Index remove_doublet(kernel::Mesh& mesh, Index v);
 
 /// Removes doublets among `nodes` and, as each removal can make another, among the nodes of the faces that
-/// result. Returns how many went.
-std::size_t remove_doublets(kernel::Mesh& mesh, std::vector<Index> nodes);
+/// result. In the end `nodes` holds, sorted, those that are left and the nodes of the new faces.
+void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes);
 
 /// Shrinks a set of faces and puts a layer of quads around it, so that every node of the set is free to
 /// move. Appends the new nodes to `nodes`. False, with nothing changed, if the outline of the
