@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "cleanup/operations.hpp"
-#include "smoothing/smooth.hpp"
-#include "smoothing/untangle.hpp"
-#include "topology/edits.hpp"
+#include "cleanup/transaction.hpp"
 
 namespace qmorph::cleanup {
 namespace {
@@ -44,7 +41,7 @@ class CleanUp {
 
   void improve(Index v) {
     for (const Candidate& c : candidates_around(mesh_, score_, v, 1)) {
-      if (!attempt(c)) continue;
+      if (!attempt_change(c)) continue;
       ++changes_;
       for (Index u : nodes_)
         if (mesh_.is_live_vertex(u)) {
@@ -59,35 +56,11 @@ class CleanUp {
     }
   }
 
-  double worst_around(const std::vector<Index>& nodes) const {
-    double worst = 1;
-    for (Index v : nodes)
-      if (mesh_.is_live_vertex(v)) worst = std::min(worst, smoothing::smallest_sine_around(mesh_, v));
-    return worst;
-  }
-
-  bool attempt(const Candidate& c) {
-    nodes_.clear();
-    mesh_.begin();
-    const bool kept = change(c);
-    kept ? mesh_.commit() : mesh_.rollback();
-    return kept;
-  }
-
-  bool change(const Candidate& c) {
-    std::vector<Index> around;
-    collect(c, around);
-    const double before = worst_around(around);
-    if (!apply(mesh_, c, nodes_)) return false;
-    topology::remove_doublets(mesh_, nodes_);
-    if (!smoothing::smooth_near(mesh_, relaxing_, nodes_, kRings)) return false;
-    return worst_around(nodes_) >= std::min(before, kFloor);
-  }
-
-  void collect(const Candidate& c, std::vector<Index>& around) const {
-    for (Index h : {c.h, kernel::Mesh::twin(c.h), c.k})
-      if (h != kNone && mesh_.face(h) != kNone)
-        for (Index v : topology::nodes_of(mesh_, mesh_.face(h))) around.push_back(v);
+  bool attempt_change(const Candidate& c) {
+    return attempt(
+        mesh_, relaxing_, kRings, nodes_near(mesh_, c), nodes_,
+        [&](std::vector<Index>& nodes) { return apply(mesh_, c, nodes); },
+        [](double before, double after) { return after >= std::min(before, kFloor); });
   }
 
   kernel::Mesh& mesh_;

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "cleanup/clean_up.hpp"
+#include "cleanup/repair.hpp"
 #include "elimination/eliminate.hpp"
 #include "engine/regions.hpp"
 #include "front/morph.hpp"
@@ -106,22 +107,19 @@ kernel::Mesh convert_region(const Region& region, const Options& options, Conver
   front::morph(mesh, options.front, options.check_each_step, [&](double share) {
     if (options.progress) options.progress("front", share);
   });
-  auto bnd=[&](const char*w){ if(!getenv("DBG")) return; size_t n=0; for(Index h=0;h<mesh.half_edge_slots();++h) if(mesh.is_live_half_edge(h)&&mesh.face(h)==kNone) ++n; auto d=find_defects(mesh); printf("%s boundary %zu of %zu defects %zu %s\n",w,n,region.boundary_sides,d.size(),d.empty()?"":d[0].c_str());};
-  bnd("front");
   stats.front_quads += count_faces(mesh, 4);
   stats.leftover_triangles += count_faces(mesh, 3);
   stats.front_seconds += watch.lap();
   elimination::eliminate_triangles(mesh, options.smoothing);
   stats.elimination_seconds += watch.lap();
-  if (getenv("DBG") && count_faces(mesh, 3) > region.boundary_sides % 2) printf("region: tri in %zu boundary %zu quads %zu tri left %zu near %g %g\n", region.triangles.size(), region.boundary_sides, count_faces(mesh,4), count_faces(mesh,3), region.points[0].x(), region.points[0].y());
-  bnd("elim");
   smoothing::smooth(mesh, options.smoothing);
   stats.smoothing_seconds += watch.lap();
-  if (!getenv("NOCLEAN")) {auto n=cleanup::clean_up(mesh, options.smoothing); if(getenv("DBG")) printf("changes %zu\n",n);}
+  cleanup::clean_up(mesh, options.smoothing);
   stats.cleanup_seconds += watch.lap();
-  bnd("clean");
   smoothing::smooth(mesh, options.smoothing);
   stats.smoothing_seconds += watch.lap();
+  cleanup::repair(mesh, options.smoothing);
+  stats.cleanup_seconds += watch.lap();
   return mesh;
 }
 

@@ -1,0 +1,97 @@
+#include "cleanup/repair.hpp"
+
+#include <algorithm>
+
+#include "cleanup/transaction.hpp"
+#include "smoothing/untangle.hpp"
+
+namespace qmorph::cleanup {
+namespace {
+
+constexpr int kPasses = 3;
+/// Changes may cost this much of the valence score: shape comes first here.
+constexpr int kLeastGain = -6;
+constexpr int kMostCandidates = 16;
+constexpr int kRings = 2;
+
+/// A repair has to pay: a slightly better corner is not worth irregular nodes.
+bool is_clearly_better(double before, double after) {
+  constexpr double kFactor = 1.5, kStep = 0.1;
+  return after > kFactor * before && after > before + std::min(kStep, before);
+}
+
+class Repair {
+ public:
+  Repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing)
+      : mesh_(mesh), score_(mesh), relaxing_(smoothing) {
+    relaxing_.iterations = std::max(relaxing_.iterations, 12);
+  }
+
+  std::size_t run() {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const std::size_t before = changes_;
+      for (Index f = 0; f < mesh_.face_slots(); ++f)
+        if (is_bad(f)) changes_ += improve(f);
+      if (changes_ == before) break;
+    }
+    return changes_;
+  }
+
+ private:
+  bool is_bad(Index f) const {
+    return mesh_.is_live_face(f) && mesh_.degree(f) == 4 &&
+           mesh_.smallest_sine(f) < relaxing_.target_quality;
+  }
+
+  bool improve(Index f) {
+    const std::vector<Index> corners = topology::nodes_of(mesh_, f);
+    std::vector<Candidate> candidates;
+    for (Index v : corners) {
+      const auto more = candidates_around(mesh_, score_, v, kLeastGain);
+      candidates.insert(candidates.end(), more.begin(), more.end());
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+    if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
+    for (const Candidate& c : candidates) {
+      std::vector<Index> near = nodes_near(mesh_, c);
+      near.insert(near.end(), corners.begin(), corners.end());
+      if (try_edit(near, [&](std::vector<Index>& nodes) {
+            nodes = corners;
+            return apply(mesh_, c, nodes);
+          }))
+        return true;
+    }
+    for (int rings : {0, 1}) {
+      const std::vector<Index> faces = topology::grow(mesh_, {f}, rings);
+      std::vector<Index> near;
+      for (Index g : faces)
+        for (Index v : topology::nodes_of(mesh_, g)) near.push_back(v);
+      if (try_edit(near, [&](std::vector<Index>& nodes) {
+            nodes = near;
+            return topology::pillow(mesh_, faces, nodes);
+          }))
+        return true;
+    }
+    return false;
+  }
+
+  template <class Edit>
+  bool try_edit(const std::vector<Index>& near, const Edit& edit) {
+    return attempt(mesh_, relaxing_, kRings, near, nodes_, edit, is_clearly_better);
+  }
+
+  kernel::Mesh& mesh_;
+  Score score_;
+  SmoothingOptions relaxing_;
+  std::vector<Index> nodes_;
+  std::size_t changes_ = 0;
+};
+
+}  // namespace
+
+std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+  return Repair(mesh, smoothing).run();
+}
+
+}  // namespace qmorph::cleanup

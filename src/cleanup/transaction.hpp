@@ -1,0 +1,49 @@
+#pragma once
+/// One change of connectivity, judged by what the mesh is worth after a guarded relaxation.
+
+#include <vector>
+
+#include "cleanup/operations.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::cleanup {
+
+/// Smallest corner sine of the faces around these nodes.
+double worst_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+
+/// Nodes of the faces that a candidate starts from.
+std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
+
+/// Carries out `edit(nodes)`, which changes the topology and appends the nodes around, removes the doublets that
+/// result, relaxes `rings` rings around, and keeps all that if `accept(worst sine before, after)`. Otherwise the mesh is
+/// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after.
+template <class Edit, class Accept>
+bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
+             const std::vector<Index>& near, std::vector<Index>& nodes, const Edit& edit,
+             const Accept& accept);
+
+}  // namespace qmorph::cleanup
+
+#include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
+
+namespace qmorph::cleanup {
+
+template <class Edit, class Accept>
+bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
+             const std::vector<Index>& near, std::vector<Index>& nodes, const Edit& edit,
+             const Accept& accept) {
+  const double before = worst_around(mesh, near);
+  nodes.clear();
+  mesh.begin();
+  bool kept = edit(nodes);
+  if (kept) {
+    topology::remove_doublets(mesh, nodes);
+    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings) &&
+           accept(before, worst_around(mesh, nodes));
+  }
+  kept ? mesh.commit() : mesh.rollback();
+  return kept;
+}
+
+}  // namespace qmorph::cleanup
