@@ -119,6 +119,8 @@ kernel::Mesh convert_region(const Region& region, const Options& options, Conver
   smoothing::smooth(mesh, options.smoothing);
   stats.smoothing_seconds += watch.lap();
   cleanup::repair(mesh, options.smoothing);
+  // Better shapes may have opened a way for triangles that found none before.
+  if (count_faces(mesh, 3) > 1) elimination::eliminate_triangles(mesh, options.smoothing);
   stats.cleanup_seconds += watch.lap();
   return mesh;
 }
