@@ -126,15 +126,29 @@ class Search {
   std::vector<unsigned> cost_, penalty_;
 };
 
-/// The five-sided face of `exit` is cut so that a triangle lies at `exit`, the better of two ways.
-void cut_triangle_at(Mesh& mesh, Index exit) {
-  const auto node = [&](Index h) { return mesh.origin(h); };
-  const Index before = mesh.prev(exit), after = mesh.next(exit);
-  const Index across = mesh.next(after), last = mesh.next(across);  // exit, after, across, last = before's prev
-  (void)last;
-  // Corners: exit runs a -> b, after b -> c, across c -> d, then d -> e (before's start), before e -> a.
-  const Index a = node(exit), b = node(after), c = node(across), d = mesh.target(across),
-              e = node(before);
+/// How a triangle is cut from a five-sided face: as the better of two ears, or around a new node inside, which gives
+/// two quads besides and can follow any shape.
+enum class Cut { ear, around_node };
+
+/// The five-sided face of `exit` is cut so that a triangle lies at `exit`.
+void cut_triangle_at(Mesh& mesh, Index exit, Cut cut, std::vector<Index>& nodes) {
+  // Corners: exit runs a -> b, after it b -> c, c -> d, d -> e, e -> a.
+  const Index before = mesh.prev(exit), after = mesh.next(exit), across = mesh.next(after);
+  const Index a = mesh.origin(exit), b = mesh.origin(after), c = mesh.origin(across),
+              d = mesh.target(across), e = mesh.origin(before);
+  if (cut == Cut::around_node) {
+    Vec2 centre = Vec2::Zero();
+    for (Index v : {a, b, c, d, e}) centre += mesh.point(v) / 5;
+    // a-d with the new node on it, then from the node to b: a triangle and two quads.
+    const Index from_d = mesh.next(across);
+    const Index diagonal = mesh.split_face(exit, from_d);  // a -> d, the part d, e, a on its left
+    const Index o = mesh.split_edge(diagonal, centre);
+    const Index from_o = mesh.next(Mesh::twin(diagonal)) == exit ? Mesh::twin(diagonal)
+                                                               : mesh.find(o, a);
+    mesh.split_face(from_o, after);
+    nodes.push_back(o);
+    return;
+  }
   const double first = std::min(topology::smallest_sine(mesh, {e, a, b}),
                                 topology::smallest_sine(mesh, {b, c, d, e}));
   const double second = std::min(topology::smallest_sine(mesh, {a, b, c}),
@@ -147,7 +161,7 @@ void cut_triangle_at(Mesh& mesh, Index exit) {
 
 /// Passes the triangle behind path[0] along the path to the triangle at its end. Nodes on the way
 /// are collected in `nodes`. False if two faces on the way share more than one edge.
-bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::vector<Index>& nodes) {
+bool pass_along(Mesh& mesh, const std::vector<Index>& path, Cut cut, std::vector<Index>& nodes) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Index h = path[i], f = mesh.face(h), g = mesh.face(Mesh::twin(h));
     if (f == kNone || g == kNone || f == g || !mesh.is_triangle(f)) return false;
@@ -158,7 +172,7 @@ bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::vector<Index>& 
     for (int k = 0; k < 3; ++k, e = mesh.next(e)) shared += mesh.face(Mesh::twin(e)) == g;
     if (shared != 1) return false;
     mesh.join_faces(h);
-    if (i + 1 < path.size()) cut_triangle_at(mesh, path[i + 1]);
+    if (i + 1 < path.size()) cut_triangle_at(mesh, path[i + 1], cut, nodes);
   }
   return true;
 }
@@ -166,6 +180,20 @@ bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::vector<Index>& 
 /// How much of the surroundings gets a layer of quads around it, to give fixed nodes room, before a triangle is passed.
 enum class Room { none, chain, ring, two_rings };
 constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring, Room::two_rings};
+
+/// How hard to try: how triangles are cut, how much room is made, how long elements are untangled, how many
+/// chains are tried.
+struct Effort {
+  Cut cut;
+  Room room;
+  int sweeps;  ///< times the usual number
+  int chains;
+};
+constexpr Effort kEfforts[] = {
+    {Cut::ear, Room::none, 1, 6},          {Cut::ear, Room::chain, 1, 6},
+    {Cut::ear, Room::ring, 1, 6},          {Cut::around_node, Room::none, 2, 8},
+    {Cut::ear, Room::chain, 8, 4},         {Cut::ear, Room::ring, 8, 4},
+    {Cut::around_node, Room::chain, 8, 8}, {Cut::ear, Room::two_rings, 8, 4}};
 
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
   std::vector<Index> faces;
@@ -175,16 +203,17 @@ std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
 }
 
 /// One triangle to one partner, in a transaction.
-bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& path, Room room) {
+bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& path,
+              const Effort& effort) {
   std::vector<Index> nodes;
   mesh.begin();
   bool done = true;
-  if (room != Room::none) {
-    const int rings = int(room) - int(Room::chain);
+  if (effort.room != Room::none) {
+    const int rings = int(effort.room) - int(Room::chain);
     const auto faces = topology::grow(mesh, faces_on(mesh, path), rings);
     done = topology::pillow(mesh, faces, nodes);
   }
-  done = done && pass_along(mesh, path, nodes);
+  done = done && pass_along(mesh, path, effort.cut, nodes);
   if (done) {
     topology::remove_doublets(mesh, nodes);
     done = smoothing::smooth_near(mesh, smoothing, nodes, kRings);
@@ -192,15 +221,6 @@ bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<I
   done ? mesh.commit() : mesh.rollback();
   return done;
 }
-
-/// How hard to try: how much room is made, how long elements are untangled, how many chains are tried.
-struct Effort {
-  Room room;
-  int sweeps;  ///< times the usual number
-  int chains;
-};
-constexpr Effort kEfforts[] = {{Room::none, 1, 6},  {Room::chain, 1, 6},  {Room::ring, 1, 6},
-                               {Room::chain, 8, 4}, {Room::ring, 8, 4}, {Room::two_rings, 8, 4}};
 
 /// Passes triangle f to a near partner. Little room and little effort come first.
 bool pass_somewhere(Mesh& mesh, SmoothingOptions smoothing, Search& search, Index f) {
@@ -212,7 +232,7 @@ bool pass_somewhere(Mesh& mesh, SmoothingOptions smoothing, Search& search, Inde
       // By turns the nearest partner by another way, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
       if (path.empty()) break;
-      done = try_path(mesh, smoothing, path, effort.room);
+      done = try_path(mesh, smoothing, path, effort);
       if (!done) search.avoid(path);
     }
     search.forgive();
