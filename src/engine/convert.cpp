@@ -112,7 +112,9 @@ kernel::Mesh convert_region(const Region& region, const Options& options, Conver
   stats.front_seconds += watch.lap();
   elimination::eliminate_triangles(mesh, options.smoothing);
   stats.elimination_seconds += watch.lap();
-  smoothing::smooth(mesh, options.smoothing);
+  SmoothingOptions rough = options.smoothing;  // good enough for cleanup to judge shapes
+  rough.iterations = std::min(rough.iterations, 3);
+  smoothing::smooth(mesh, rough);
   stats.smoothing_seconds += watch.lap();
   cleanup::clean_up(mesh, options.smoothing);
   stats.cleanup_seconds += watch.lap();

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "front/step.hpp"
+#include "geometry/predicates.hpp"
 
 namespace qmorph::front {
 namespace {
@@ -146,7 +147,7 @@ bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal) {
   for (int i = 0; i <= kHalvings; ++i, share /= 2) {
     mesh.set_point(v, start + share * (goal - start));
     const double worst = worst_sine_around(mesh, v);
-    if (worst > 0 && worst >= floor && mesh.is_valid_star(v)) return true;
+    if (worst > kStraightSine && worst >= floor) return true;
   }
   mesh.set_point(v, start);
   return false;

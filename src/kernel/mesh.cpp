@@ -105,15 +105,20 @@ bool Mesh::is_valid_star(Index v) const {
 }
 
 double Mesh::smallest_sine(Index f) const {
+  // Squares with a sign are compared; one root at the end.
   const Index start = half_edge(f);
   double smallest = 1;
   Index h = start;
+  Vec2 back = -vector(prev(start));
   do {
-    smallest =
-        std::min(smallest, corner_sine(point(origin(h)), point(target(h)), point(origin(prev(h)))));
+    const Vec2 ahead = vector(h);
+    const double area = cross(ahead, back), lengths = ahead.squaredNorm() * back.squaredNorm();
+    const double squared = lengths > 0 ? area * std::abs(area) / lengths : 0;
+    smallest = std::min(smallest, squared);
+    back = -ahead;
     h = next(h);
   } while (h != start);
-  return smallest;
+  return smallest < 0 ? -std::sqrt(-smallest) : std::sqrt(smallest);
 }
 
 // --- edits ----------------------------------------------------------------------------------------------

@@ -2,14 +2,16 @@
 
 #include <cmath>
 
+#include "geometry/predicates.hpp"
+
 namespace qmorph::smoothing {
 namespace {
 
-using Matrix = Eigen::Matrix2d;
-
 /// How a corner's area J enters its energy: as h(J), with the first two derivatives.
 struct Plain {
-  bool accepts(double j) const { return j > 0; }
+  /// mu is at least 1 / sine: a corner whose mu is larger than this may be straight.
+  static constexpr double kMostMu = 0.5 / kStraightSine;
+  bool accepts(double j, double n) const { return n < 2 * kMostMu * j; }
   double h(double j) const { return j; }
   double dh(double) const { return 1; }
   double ddh(double) const { return 0; }
@@ -17,7 +19,7 @@ struct Plain {
 struct Regularised {
   double delta;
   double root(double j) const { return std::sqrt(j * j + 4 * delta * delta); }
-  bool accepts(double) const { return true; }
+  bool accepts(double, double) const { return true; }
   double h(double j) const {
     // For negative j the sum cancels: its conjugate does not.
     return j >= 0 ? 0.5 * (j + root(j)) : 2 * delta * delta / (root(j) - j);
@@ -31,31 +33,31 @@ struct Regularised {
 template <class Area>
 void add_corner(Energy& energy, const Area& area, const Vec2& a, const Vec2& b, const Vec2& dn,
                 double n2, const Vec2& dj) {
-  const double j = cross(a, b);
-  if (!area.accepts(j)) {
+  const double j = cross(a, b), n = a.squaredNorm() + b.squaredNorm();
+  if (!area.accepts(j, n)) {
     energy.finite = false;
     return;
   }
-  const double h = area.h(j), dh = area.dh(j);
-  const double n = a.squaredNorm() + b.squaredNorm(), mu = n / (2 * h);
-  const Vec2 g = (dn - (n * dh / h) * dj) / (2 * h);
-  const Matrix mixed = dn * dj.transpose(), outer = dj * dj.transpose();
-  const Matrix second = n2 / (2 * h) * Matrix::Identity() -
-                        dh * (mixed + mixed.transpose()) / (2 * h * h) +
-                        (n * dh * dh / (h * h * h) - n * area.ddh(j) / (2 * h * h)) * outer;
+  const double h = area.h(j), dh = area.dh(j), inverse = 0.5 / h, mu = n * inverse;
+  const Vec2 g = inverse * (dn - (2 * mu * dh) * dj);
+  // Second derivative of mu: diagonal + mixed (dn dj^T + dj dn^T) + outer dj dj^T; then that of mu^2.
+  const double diagonal = n2 * inverse, mixed = -2 * dh * inverse * inverse,
+               outer = 4 * mu * inverse * inverse * (2 * dh * dh - h * area.ddh(j));
   energy.value += mu * mu;
-  energy.gradient += 2 * mu * g;
-  energy.hessian += 2 * (mu * second + g * g.transpose());
+  energy.gradient += (2 * mu) * g;
+  energy.xx += 2 * (mu * (diagonal + 2 * mixed * dn.x() * dj.x() + outer * dj.x() * dj.x()) + g.x() * g.x());
+  energy.yy += 2 * (mu * (diagonal + 2 * mixed * dn.y() * dj.y() + outer * dj.y() * dj.y()) + g.y() * g.y());
+  energy.xy += 2 * (mu * (mixed * (dn.x() * dj.y() + dn.y() * dj.x()) + outer * dj.x() * dj.y()) + g.x() * g.y());
 }
 
 template <class Area>
 void add_value(Energy& energy, const Area& area, const Vec2& a, const Vec2& b) {
-  const double j = cross(a, b);
-  if (!area.accepts(j)) {
+  const double j = cross(a, b), n = a.squaredNorm() + b.squaredNorm();
+  if (!area.accepts(j, n)) {
     energy.finite = false;
     return;
   }
-  const double mu = (a.squaredNorm() + b.squaredNorm()) / (2 * area.h(j));
+  const double mu = n / (2 * area.h(j));
   energy.value += mu * mu;
 }
 

@@ -10,10 +10,10 @@
 namespace qmorph::smoothing {
 
 struct Energy {
-  bool finite = true;  ///< false if a corner is not strictly convex
+  bool finite = true;  ///< false if a corner is not convex by more than `kStraightSine`
   double value = 0;
   Vec2 gradient = Vec2::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+  double xx = 0, xy = 0, yy = 0;  ///< second derivatives
 };
 
 /// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a

@@ -23,16 +23,14 @@ double mean_edge(const kernel::Mesh& mesh, Index v) {
 
 /// Newton's direction where the energy is convex, else downhill by a fraction of the edge length.
 Vec2 direction(const Energy& energy, double edge) {
-  const auto& h = energy.hessian;
-  const double determinant = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
-  if (h(0, 0) > 0 && determinant > 0) {
-    const Vec2 g = energy.gradient;
-    return {-(h(1, 1) * g.x() - h(0, 1) * g.y()) / determinant,
-            -(h(0, 0) * g.y() - h(1, 0) * g.x()) / determinant};
-  }
+  const double determinant = energy.xx * energy.yy - energy.xy * energy.xy;
+  const Vec2& g = energy.gradient;
+  if (energy.xx > 0 && determinant > 0)
+    return {-(energy.yy * g.x() - energy.xy * g.y()) / determinant,
+            -(energy.xx * g.y() - energy.xy * g.x()) / determinant};
   constexpr double kDownhill = 0.1;
-  const double length = energy.gradient.norm();
-  return length > 0 ? Vec2(-energy.gradient * (kDownhill * edge / length)) : Vec2::Zero();
+  const double length = g.norm();
+  return length > 0 ? Vec2(-g * (kDownhill * edge / length)) : Vec2::Zero();
 }
 
 bool is_movable(const kernel::Mesh& mesh, Index v) {
@@ -111,8 +109,8 @@ class Passes {
 
 double relax_node(kernel::Mesh& mesh, Index v) {
   if (!is_movable(mesh, v)) return 0;
-  const double edge = mean_edge(mesh, v);
-  Energy energy = energy_around(mesh, v);
+  const double edge = mesh.length(mesh.out(v));
+  const Energy energy = energy_around(mesh, v);
   if (!energy.finite) {
     const Vec2 before = mesh.point(v);
     untangle_node(mesh, v);
@@ -126,8 +124,7 @@ double relax_node(kernel::Mesh& mesh, Index v) {
     const Energy there = energy_at(mesh, v, p);
     if (!there.finite || !(there.value < energy.value)) continue;
     mesh.set_point(v, p);
-    if (mesh.is_valid_star(v)) return share * step.norm() / edge;
-    mesh.set_point(v, start);
+    return share * step.norm() / edge;
   }
   return 0;
 }

@@ -18,7 +18,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
                  int rings);
 
 /// One Newton step of the shape energy at v, shortened until the energy falls. Returns how far v moved,
-/// relative to its mean edge length; 0 if v is fixed.
+/// relative to one of its edges; 0 if v is fixed.
 double relax_node(kernel::Mesh& mesh, Index v);
 
 }  // namespace qmorph::smoothing
