@@ -39,7 +39,8 @@ Gap gap(const Scene& s, Index p, Index k, Index n, bool mirror) {
 //   |   \ /   |
 //    3---0---7
 //        5
-const std::vector<Vec2> kPoints = {{0, 0}, {-0.2, 1}, {0.2, 1}, {-1, -0.5}, {-1.5, 1}, {0, -1.5}, {1.5, 1}, {1, -0.5}, {0, 2.5}};
+const std::vector<Vec2> kPoints = {{0, 0},    {-0.2, 1}, {0.2, 1},  {-1, -0.5}, {-1.5, 1},
+                                   {0, -1.5}, {1.5, 1},  {1, -0.5}, {0, 2.5}};
 const Polygons kFaces = {{0, 1, 4, 3}, {0, 3, 5, 7}, {0, 7, 6, 2}, {0, 2, 1}, {1, 2, 8}, {1, 8, 4}, {2, 6, 8}};
 
 }  // namespace
@@ -140,7 +141,8 @@ namespace {
 //   |      |  2------6      quads (k 1 4 3), (k 3 5 7), (k 7 6 2)
 //   3----- 0 -----7
 //          5
-const std::vector<Vec2> kLong = {{0, 0}, {-0.3, 3}, {0.2, 0.9}, {-1.5, 0}, {-1.8, 3}, {0, -1.5}, {1.2, 0.9}, {1.2, -0.1}, {1.2, 3}};
+const std::vector<Vec2> kLong = {{0, 0},    {-0.3, 3},  {0.2, 0.9},  {-1.5, 0}, {-1.8, 3},
+                                 {0, -1.5}, {1.2, 0.9}, {1.2, -0.1}, {1.2, 3}};
 const Polygons kLongFaces = {{0, 1, 4, 3}, {0, 3, 5, 7}, {0, 7, 6, 2}, {0, 2, 1}, {2, 8, 1}, {2, 6, 8}};
 
 }  // namespace
@@ -155,7 +157,8 @@ TEST_CASE("transition seam: the long edge is split, and its near half sewn to th
     s.front.set_level(g.in, 2);
     REQUIRE(s.attempt([&] { return front::transition_seam(s.step, g.in, g.out); }));
     const Index m = 9;
-    CHECK(faces_of(s.mesh) == oriented({{0, 2, m, 3}, {m, 1, 4, 3}, {0, 3, 5, 7}, {0, 7, 6, 2}, {2, 1, m}, {2, 8, 1}, {2, 6, 8}}, mirror));
+    CHECK(faces_of(s.mesh) ==
+          oriented({{0, 2, m, 3}, {m, 1, 4, 3}, {0, 3, 5, 7}, {0, 7, 6, 2}, {2, 1, m}, {2, 8, 1}, {2, 6, 8}}, mirror));
     CHECK(boundary_of(s.mesh) == boundary);
     CHECK(defect(s.mesh) == "");
     CHECK_FALSE(s.colours.may_join(m, 0));  // the colour of the node between the edges
@@ -207,7 +210,8 @@ void check_transition_split(const Vec2& corner, bool mirror) {
   }));
   const Index m = 7, c = 8;
   CHECK(s.mesh.point(m) == Vec2(mirror ? 1.5 : -1.5, 0));
-  CHECK(faces_of(s.mesh) == oriented({{0, m, c, 4}, {c, 1, 3, 4}, {2, 0, 4, 6}, {1, c, m}, {1, m, 5}, {m, 0, 5}, {0, 2, 5}}, mirror));
+  CHECK(faces_of(s.mesh) ==
+        oriented({{0, m, c, 4}, {c, 1, 3, 4}, {2, 0, 4, 6}, {1, c, m}, {1, m, 5}, {m, 0, 5}, {0, 2, 5}}, mirror));
   CHECK(boundary_of(s.mesh) == boundary);
   CHECK(defect(s.mesh) == "");
   // The new base edge joins the new nodes; the front runs 1, c, m, 0.

@@ -42,9 +42,9 @@ TEST_CASE("ccw_angle there and back make a full turn") {
 TEST_CASE("corner_sine is positive exactly at convex corners") {
   CHECK(corner_sine({0, 0}, {3, 0}, {0, 0.1}) == doctest::Approx(1));
   CHECK(corner_sine({0, 0}, {1, 0}, {1, 1}) == doctest::Approx(std::sqrt(0.5)));
-  CHECK(corner_sine({0, 0}, {1, 0}, {-1, 0}) == 0);              // straight
+  CHECK(corner_sine({0, 0}, {1, 0}, {-1, 0}) == 0);                   // straight
   CHECK(corner_sine({0, 0}, {0, 1}, {1, 0}) == doctest::Approx(-1));  // reflex
-  CHECK(corner_sine({2, 2}, {2, 2}, {5, 1}) == 0);               // an edge without length
+  CHECK(corner_sine({2, 2}, {2, 2}, {5, 1}) == 0);                    // an edge without length
 }
 
 TEST_CASE("is_convex_corner wants more than the sine given, at any scale") {

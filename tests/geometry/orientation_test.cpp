@@ -17,11 +17,16 @@ using qmorph::test::Rng;
 Vec2 nasty_point(Rng& rng) {
   const double t = rng.range(-4, 4);
   switch (rng.below(5)) {
-    case 0: return {double(rng.range(-3, 3)), double(rng.range(-3, 3))};
-    case 1: return {t, std::nextafter(3 * t, rng.chance(0.5) ? 99 : -99)};
-    case 2: return {t * 0x1p-40, 3 * t * 0x1p-40};
-    case 3: return {1e8 + t * 0x1p-20, 3e8 + 3 * t * 0x1p-20};
-    default: return {rng.between(-1, 1), rng.between(-1, 1)};
+    case 0:
+      return {double(rng.range(-3, 3)), double(rng.range(-3, 3))};
+    case 1:
+      return {t, std::nextafter(3 * t, rng.chance(0.5) ? 99 : -99)};
+    case 2:
+      return {t * 0x1p-40, 3 * t * 0x1p-40};
+    case 3:
+      return {1e8 + t * 0x1p-20, 3e8 + 3 * t * 0x1p-20};
+    default:
+      return {rng.between(-1, 1), rng.between(-1, 1)};
   }
 }
 
@@ -37,7 +42,8 @@ TEST_CASE("orientation: left, right and on the line") {
 
 // FAILS (bug found): the exact sum can end in a leading component that is zero while a smaller one is not:
 // {0.5, 0.5 - 2^-54}, {12, 12}, {24, 24} gives 0 instead of -1.
-TEST_CASE("orientation: rotating the arguments changes nothing, exchanging two changes the sign" * doctest::should_fail()) {
+TEST_CASE("orientation: rotating the arguments changes nothing, exchanging two changes the sign" *
+          doctest::should_fail()) {
   Rng rng(1);
   int straight = 0, turned = 0;
   for (int i = 0; i < 20000; ++i) {

@@ -82,8 +82,7 @@ TEST_CASE("find_defects: an inner edge and an edge of the boundary between the s
   //  0--4--2         Shape does not matter here.
   //   \   /
   //     3
-  Mesh mesh =
-      drawn({{-1, 0}, {0, 1}, {1, 0}, {0, -1}, {0, 0.3}}, {{1, 2, 3, 0}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
+  Mesh mesh = drawn({{-1, 0}, {0, 1}, {1, 0}, {0, -1}, {0, 0.3}}, {{1, 2, 3, 0}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}});
   mesh.split_face(edge(mesh, 0, 1), edge(mesh, 2, 3));
   CHECK(defect(mesh, false) != "");
 }

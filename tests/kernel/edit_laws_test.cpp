@@ -105,7 +105,10 @@ TEST_CASE("can_flip says yes exactly where two triangles, counter-clockwise and 
       };
       const bool possible = area(a, d, c) > 1e-9 && area(d, b, c) > 1e-9 && mesh.find(c, d) == kNone;
       REQUIRE(mesh.can_flip(h) == possible);
-      if (!possible) { ++no; continue; }
+      if (!possible) {
+        ++no;
+        continue;
+      }
       ++yes;
       mesh.begin();
       mesh.flip(h);

@@ -59,7 +59,8 @@ TEST_CASE("sides that are open are not joined") {
   //  |  :  |
   //  5--2--6
   const std::vector<Vec2> slit = {{9, 9}, {0, 1}, {0, -1}, {0, 3}, {-2, 1}, {-2, -1}, {2, 0}, {0, -3}};
-  std::vector<std::array<Index, 3>> triangles = {{1, 2, 6}, {2, 1, 4}, {1, 6, 3}, {1, 3, 4}, {2, 4, 5}, {2, 5, 7}, {2, 7, 6}};
+  std::vector<std::array<Index, 3>> triangles = {{1, 2, 6}, {2, 1, 4}, {1, 6, 3}, {1, 3, 4},
+                                                 {2, 4, 5}, {2, 5, 7}, {2, 7, 6}};
   std::vector<bool> open(21, false);
   open[0] = open[3] = true;
   const Mesh mesh(slit, triangles, open);
@@ -173,8 +174,8 @@ TEST_CASE("collapse merges a node into its neighbour; the triangles at the edge 
   //   |  5--2   ->    | /  2     node 5 goes into 3
   //   | / \ |         |//
   //   0----1          0----1
-  Mesh mesh = drawn({{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}, {1, 1}},
-                    {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 0, 5}});
+  Mesh mesh =
+      drawn({{0, 0}, {2, 0}, {3, 1}, {2, 2}, {0, 2}, {1, 1}}, {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 0, 5}});
   const Index h = edge(mesh, 5, 3);
   REQUIRE(mesh.can_collapse(h));
   mesh.collapse(h);
@@ -270,8 +271,14 @@ TEST_CASE("pillow puts a layer of quads between a set of faces and its outline")
   const std::vector<Index> loop = {edge(mesh, 4, 5), edge(mesh, 5, 7), edge(mesh, 7, 4)};
   const auto copies = mesh.pillow(loop, 0.5);
   CHECK(copies == std::vector<Index>{9, 10, 11});
-  CHECK(faces_of(mesh) == Polygons{{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 10, 9}, {4, 9, 11, 7},
-                                   {5, 7, 11, 10}, {5, 8, 7}, {9, 10, 11}});
+  CHECK(faces_of(mesh) == Polygons{{0, 1, 4, 3},
+                                   {1, 2, 5, 4},
+                                   {3, 4, 7, 6},
+                                   {4, 5, 10, 9},
+                                   {4, 9, 11, 7},
+                                   {5, 7, 11, 10},
+                                   {5, 8, 7},
+                                   {9, 10, 11}});
   // Node 4 has two edges in the face, to 5 and 7: their middle is (1.5, 1.5), half-way there is (1.25, 1.25).
   CHECK(mesh.point(9) == Vec2(1.25, 1.25));
   CHECK(boundary_of(mesh) == boundary_of(four_quads()));

@@ -13,7 +13,7 @@ namespace qmorph::test {
 class RandomEdits {
  public:
   static inline const std::array<std::string, 8> kNames = {"split_edge", "split_face", "join_faces", "flip",
-                                                        "collapse",   "open_quad",  "pillow",     "make_face"};
+                                                           "collapse",   "open_quad",  "pillow",     "make_face"};
 
   RandomEdits(Mesh& mesh, Rng& rng) : mesh_(mesh), rng_(rng), boundary_(boundary_of(mesh)), expected_(count(mesh)) {}
 
@@ -41,14 +41,22 @@ class RandomEdits {
  private:
   bool edit() {
     switch (kind_) {
-      case 0: return split_edge();
-      case 1: return split_face();
-      case 2: return join_faces();
-      case 3: return flip();
-      case 4: return collapse();
-      case 5: return open_quad();
-      case 6: return pillow();
-      default: return make_face();
+      case 0:
+        return split_edge();
+      case 1:
+        return split_face();
+      case 2:
+        return join_faces();
+      case 3:
+        return flip();
+      case 4:
+        return collapse();
+      case 5:
+        return open_quad();
+      case 6:
+        return pillow();
+      default:
+        return make_face();
     }
   }
 
