@@ -1,10 +1,14 @@
 #include "qmorph/convert.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <string>
 
 #include "cleanup/clean_up.hpp"
 #include "cleanup/repair.hpp"
 #include "elimination/eliminate.hpp"
+#include "engine/overlap.hpp"
+#include "engine/prepare.hpp"
 #include "engine/regions.hpp"
 #include "front/morph.hpp"
 #include "kernel/mesh.hpp"
@@ -100,36 +104,62 @@ std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {
   return count;
 }
 
-kernel::Mesh convert_region(const Region& region, const Options& options, ConversionStats& stats) {
+/// Invariants I4 and I5, or no result. The stages keep them step by step; this is the last word.
+void require_valid(const kernel::Mesh& mesh, const Region& region, const Plane& plane) {
+  std::size_t triangles = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    const auto where = [&] {
+      return describe(plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f)))));
+    };
+    if (!mesh.is_valid_face(f))
+      throw SurfaceError("no valid element was found at " + where() +
+                         "; refine the triangles or the boundary there");
+    if (mesh.degree(f) == 3 && ++triangles > region.boundary_sides % 2)
+      throw SurfaceError("the triangle at " + where() +
+                         " could not be removed; refine the triangles or the boundary there");
+  }
+}
+
+kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options,
+                            ConversionStats& stats) {
   Stopwatch watch;
+  const auto progress = [&](std::string_view stage, double share) {
+    if (options.progress) options.progress(stage, share);
+  };
   kernel::Mesh mesh(region.points, region.triangles, region.open);
   for (Index v : region.fixed) mesh.set_fixed(v);
-  front::morph(mesh, options.front, options.check_each_step, [&](double share) {
-    if (options.progress) options.progress("front", share);
-  });
+  repair_input(mesh, plane);
+  front::morph(mesh, options.front, options.check_each_step,
+               [&](double share) { progress("front", share); });
   stats.front_quads += count_faces(mesh, 4);
   stats.leftover_triangles += count_faces(mesh, 3);
   stats.front_seconds += watch.lap();
   elimination::eliminate_triangles(mesh, options.smoothing);
   stats.elimination_seconds += watch.lap();
+  progress("smoothing", 0);
   SmoothingOptions rough = options.smoothing;  // good enough for cleanup to judge shapes
   rough.iterations = std::min(rough.iterations, 3);
   smoothing::smooth(mesh, rough);
   stats.smoothing_seconds += watch.lap();
+  progress("cleanup", 0);
   cleanup::clean_up(mesh, options.smoothing);
   stats.cleanup_seconds += watch.lap();
+  progress("smoothing", 0.5);
   smoothing::smooth(mesh, options.smoothing);
   stats.smoothing_seconds += watch.lap();
   cleanup::repair(mesh, options.smoothing);
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) elimination::eliminate_triangles(mesh, options.smoothing);
   stats.cleanup_seconds += watch.lap();
+  require_valid(mesh, region, plane);
   return mesh;
 }
 
 }  // namespace
 
 QuadMesh convert(const Patch& patch, const Options& options) {
+  require_sound(patch);
   if (patch.triangles.empty()) {
     Collector nothing(patch, {}, {});
     return nothing.finish();
@@ -140,12 +170,14 @@ QuadMesh convert(const Patch& patch, const Options& options) {
   for (const auto& p : patch.points) plane_points.push_back(plane.to_plane(p));
   const std::vector<Region> regions = cut_into_regions(patch, plane_points);
 
+  require_no_overlap(regions, plane);
+
   ConversionStats stats;
   Collector collector(patch, plane, plane_points);
   for (const Region& region : regions) {
     ++stats.regions;
     stats.odd_regions += region.boundary_sides % 2;
-    collector.add(region, convert_region(region, options, stats));
+    collector.add(region, convert_region(region, plane, options, stats));
   }
   QuadMesh mesh = collector.finish();
   mesh.stats = stats;

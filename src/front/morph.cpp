@@ -29,7 +29,6 @@ class Morph {
       for (Index base; (base = next_base()) != kNone;) {
         if (++steps_ > most_steps) return counts_;
         if (progress && steps_ % 4096 == 0) progress(double(steps_) / double(most_steps));
-        if(getenv("TRACE")&&steps_%5000==0) printf("step %zu level %u len %g at %g %g quads %zu seams %zu ts %zu tsp %zu aside %zu\n",steps_,front_.level(base),mesh_.length(base),mesh_.point(mesh_.origin(base)).x(),mesh_.point(mesh_.origin(base)).y(),counts_.quads,counts_.seams,counts_.transition_seams,counts_.transition_splits,counts_.set_aside);
         if (!advance(base)) set_aside(base);
         if (check_) check();
       }
@@ -272,9 +271,7 @@ class Morph {
 
 MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
                   const std::function<void(double)>& progress) {
-  auto c= Morph(mesh, options, check_each_step).run(progress);
-  if(getenv("DBG")) printf("quads %zu seams %zu tseam %zu tsplit %zu loops %zu aside %zu\n",c.quads,c.seams,c.transition_seams,c.transition_splits,c.small_loops,c.set_aside);
-  return c;
+  return Morph(mesh, options, check_each_step).run(progress);
 }
 
 }  // namespace qmorph::front

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 #include "kernel/mesh.hpp"
 
@@ -9,6 +10,18 @@ namespace {
 class Inspector {
  public:
   Inspector(const Mesh& mesh, bool geometry) : mesh_(mesh), geometry_(geometry) {}
+
+  std::vector<std::string> look_at(const std::vector<Index>& half_edges) {
+    for (Index h : half_edges)
+      if (mesh_.is_live_half_edge(h)) check_half_edge(h);
+    if (!defects_.empty()) return defects_;
+    for (Index h : half_edges) {
+      if (!mesh_.is_live_half_edge(h)) continue;
+      if (mesh_.face(h) != kNone) check_face(mesh_.face(h));
+      check_vertex(mesh_.origin(h));
+    }
+    return defects_;
+  }
 
   std::vector<std::string> run() {
     for (Index h = 0; h < mesh_.half_edge_slots(); ++h)
@@ -86,6 +99,23 @@ class Inspector {
 };
 
 }  // namespace
+
+void Mesh::check_touched() const {
+  std::vector<Index> touched;
+  for (const auto& [h, old] : edge_pool_.old_values) touched.push_back(h);
+  for (const auto& [v, old] : vertex_pool_.old_values)
+    if (is_live_vertex(v)) {
+      Index h = out(v);
+      do {
+        touched.push_back(h);
+        h = rotate_ccw(h);
+      } while (h != out(v) && touched.size() < 1000000);
+    }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  const auto defects = Inspector(*this, true).look_at(touched);
+  if (!defects.empty()) throw std::logic_error("after an operation: " + defects[0]);
+}
 
 std::vector<std::string> find_defects(const Mesh& mesh, bool geometry) {
   return Inspector(mesh, geometry).run();

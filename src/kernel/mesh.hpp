@@ -112,8 +112,11 @@ class Mesh {
   void commit();
   void rollback();
   bool in_transaction() const { return recording_; }
+  /// In a build with QMORPH_CHECKS, `commit()` looks at every element that the transaction touched and throws
+  /// std::logic_error if one contradicts the invariants.
 
  private:
+  void check_touched() const;
   HalfEdge& edit_half_edge(Index h);
   Vertex& edit_vertex(Index v);
   Face& edit_face(Index f);

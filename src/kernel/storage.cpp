@@ -117,6 +117,9 @@ void Mesh::begin() {
 
 void Mesh::commit() {
   assert(recording_);
+#ifdef QMORPH_CHECKS
+  check_touched();
+#endif
   recording_ = false;
   commit_pool(edge_pool_);
   commit_pool(vertex_pool_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "smoothing/node_energy.hpp"
 #include "smoothing/untangle.hpp"
@@ -19,6 +20,19 @@ double mean_edge(const kernel::Mesh& mesh, Index v) {
     h = mesh.rotate_ccw(h);
   } while (h != mesh.out(v));
   return sum / edges;
+}
+
+/// Sines do not see edge lengths: a node may fall onto its neighbour although every corner looks good.
+bool is_on_neighbour(const kernel::Mesh& mesh, Index v) {
+  constexpr double kLeastRatio = 1e-4;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  Index h = mesh.out(v);
+  do {
+    const double length = mesh.length(h);
+    shortest = std::min(shortest, length), longest = std::max(longest, length);
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return shortest < kLeastRatio * longest;
 }
 
 /// Newton's direction where the energy is convex, else downhill by a fraction of the edge length.
@@ -163,8 +177,8 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   }
   for (Index v : around)
     if (smallest_sine_around(mesh, v) < options.target_quality) raise_smallest_sine(mesh, v);
-  const auto is_valid = [&](Index v) { return mesh.is_valid_star(v); };
-  return std::all_of(nodes.begin(), nodes.end(), is_valid);
+  return std::none_of(around.begin(), around.end(), [&](Index v) { return is_on_neighbour(mesh, v); }) &&
+         std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); });
 }
 
 }  // namespace qmorph::smoothing

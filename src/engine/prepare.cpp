@@ -1,0 +1,65 @@
+#include "engine/prepare.hpp"
+
+#include "engine/regions.hpp"
+#include "geometry/predicates.hpp"
+#include "qmorph/error.hpp"
+#include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
+
+namespace qmorph {
+namespace {
+
+using kernel::Mesh;
+
+Index longest_side(const Mesh& mesh, Index f) {
+  Index h = mesh.half_edge(f), longest = h;
+  for (int i = 0; i < 3; ++i, h = mesh.next(h))
+    if (mesh.length(h) > mesh.length(longest)) longest = h;
+  return longest;
+}
+
+/// The middle node of a flat triangle is joined to the node across its longest side instead.
+bool swap_away(Mesh& mesh, Index f) {
+  const Index h = longest_side(mesh, f);
+  if (!mesh.can_flip(h)) return false;
+  mesh.flip(h);
+  return true;
+}
+
+bool move_away(Mesh& mesh, Index f) {
+  SmoothingOptions options;
+  options.iterations = 0;
+  const std::vector<Index> corners = topology::nodes_of(mesh, f);
+  mesh.begin();
+  const bool done = smoothing::smooth_near(mesh, options, corners, 0) && mesh.is_valid_face(f);
+  done ? mesh.commit() : mesh.rollback();
+  return done;
+}
+
+std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
+  std::string text;
+  for (Index v : topology::nodes_of(mesh, f))
+    text += (text.empty() ? "" : ", ") + describe(plane.to_space(mesh.point(v)));
+  return text;
+}
+
+}  // namespace
+
+void repair_input(Mesh& mesh, const Plane& plane) {
+  std::vector<Index> flat;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (mesh.is_valid_face(f)) continue;
+    const auto n = topology::nodes_of(mesh, f);
+    if (orientation(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])) < 0 &&
+        mesh.smallest_sine(f) < -kDegenerateSine)
+      throw SurfaceError("the triangle " + corners_of(mesh, plane, f) +
+                         " is turned over, so triangles overlap; mesh the surface anew or repair it");
+    flat.push_back(f);
+  }
+  for (Index f : flat)
+    if (!mesh.is_valid_face(f) && !swap_away(mesh, f) && !move_away(mesh, f))
+      throw SurfaceError("the triangle " + corners_of(mesh, plane, f) +
+                         " has no area and its nodes are fixed; remove or collapse it");
+}
+
+}  // namespace qmorph
