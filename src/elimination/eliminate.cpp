@@ -159,10 +159,12 @@ void cut_triangle_at(Mesh& mesh, Index exit, Cut cut, std::vector<Index>& nodes)
     mesh.split_face(exit, across);
 }
 
-/// Passes the triangle behind path[0] along the path to the triangle at its end. Nodes on the way
-/// are collected in `nodes`. False if two faces on the way share more than one edge.
-bool pass_along(Mesh& mesh, const std::vector<Index>& path, Cut cut, std::vector<Index>& nodes) {
-  for (std::size_t i = 0; i < path.size(); ++i) {
+/// Passes the triangle behind path[0] across the first `crossings` edges of the path; if these are all, it meets the
+/// triangle at the end. Nodes on the way are collected in `nodes`. False if two faces on the way share
+/// more than one edge.
+bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::size_t crossings, Cut cut,
+                std::vector<Index>& nodes) {
+  for (std::size_t i = 0; i < crossings; ++i) {
     const Index h = path[i], f = mesh.face(h), g = mesh.face(Mesh::twin(h));
     if (f == kNone || g == kNone || f == g || !mesh.is_triangle(f)) return false;
     for (Index face : {f, g})
@@ -181,6 +183,9 @@ bool pass_along(Mesh& mesh, const std::vector<Index>& path, Cut cut, std::vector
 enum class Room { none, chain, ring, two_rings };
 constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring, Room::two_rings};
 
+/// A triangle that is farther from its partner than this walks.
+constexpr std::size_t kLongestChain = 40;
+
 /// How hard to try: how triangles are cut, how much room is made, how long elements are untangled, how many
 /// chains are tried.
 struct Effort {
@@ -195,16 +200,17 @@ constexpr Effort kEfforts[] = {
     {Cut::ear, Room::chain, 8, 4},         {Cut::ear, Room::ring, 8, 4},
     {Cut::around_node, Room::chain, 8, 8}, {Cut::ear, Room::two_rings, 8, 4}};
 
+/// The faces on a path, the one behind its last edge too.
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
-  std::vector<Index> faces;
-  for (Index h : path) faces.push_back(mesh.face(h));
-  faces.push_back(mesh.face(Mesh::twin(path.back())));
+  std::vector<Index> faces{mesh.face(path[0])};
+  for (Index h : path) faces.push_back(mesh.face(Mesh::twin(h)));
   return faces;
 }
 
-/// One triangle to one partner, in a transaction.
-bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& path,
-              const Effort& effort) {
+/// One triangle to one partner, or part of the way, in a transaction.
+bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& path,
+              std::size_t crossings, const Effort& effort) {
+  smoothing.untangling_sweeps *= effort.sweeps;
   std::vector<Index> nodes;
   mesh.begin();
   bool done = true;
@@ -213,7 +219,7 @@ bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<I
     const auto faces = topology::grow(mesh, faces_on(mesh, path), rings);
     done = topology::pillow(mesh, faces, nodes);
   }
-  done = done && pass_along(mesh, path, effort.cut, nodes);
+  done = done && pass_along(mesh, path, crossings, effort.cut, nodes);
   if (done) {
     topology::remove_doublets(mesh, nodes);
     done = smoothing::smooth_near(mesh, smoothing, nodes, kRings);
@@ -222,22 +228,49 @@ bool try_path(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<I
   return done;
 }
 
-/// Passes triangle f to a near partner. Little room and little effort come first.
-bool pass_somewhere(Mesh& mesh, SmoothingOptions smoothing, Search& search, Index f) {
-  const int sweeps = smoothing.untangling_sweeps;
+/// Passes triangle f to a near partner at one go. Little room and little effort come first.
+bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
   bool done = false;
   for (const Effort& effort : kEfforts) {
-    smoothing.untangling_sweeps = effort.sweeps * sweeps;
     for (int i = 0; i < effort.chains && !done; ++i) {
       // By turns the nearest partner by another way, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
-      if (path.empty()) break;
-      done = try_path(mesh, smoothing, path, effort);
+      if (path.empty() || path.size() > kLongestChain) break;
+      done = try_path(mesh, smoothing, path, path.size(), effort);
       if (!done) search.avoid(path);
     }
     search.forgive();
     if (done) break;
   }
+  return done;
+}
+
+/// Walks triangle f to a partner, face by face: each step leaves a valid mesh, so a long way needs no
+/// untangling as a whole. A step that fails makes the walk go round.
+bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
+  constexpr int kSteps = 400;
+  constexpr Effort kStepEfforts[] = {{Cut::ear, Room::none, 1, 1},
+                                     {Cut::around_node, Room::none, 1, 1},
+                                     {Cut::ear, Room::chain, 2, 1},
+                                     {Cut::around_node, Room::chain, 4, 1}};
+  bool done = false;
+  for (int step = 0; step < kSteps && !done; ++step) {
+    std::vector<Index> path = search.path_to_triangle(f, 0);
+    if (path.empty()) break;
+    if (path.size() > 2) path.resize(2);
+    bool moved = false;
+    for (const Effort& effort : kStepEfforts)
+      if ((moved = try_path(mesh, smoothing, path, 1, effort))) break;
+    if (moved) {
+      done = path.size() == 1;
+      if (!done) f = mesh.face(path[1]);
+      if (!done && !mesh.is_triangle(f)) break;
+    } else {
+      path.push_back(Mesh::twin(path.back()));
+      search.avoid(path);
+    }
+  }
+  search.forgive();
   return done;
 }
 
@@ -254,7 +287,7 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
     if (triangles.size() < 2) return triangles.size();
     for (Index f : triangles) {
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
-      if (pass_somewhere(mesh, thorough, search, f)) progress = true;
+      if (pass_at_once(mesh, thorough, search, f) || walk(mesh, thorough, search, f)) progress = true;
     }
   }
   return triangles_of(mesh).size();
