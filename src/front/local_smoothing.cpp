@@ -108,7 +108,8 @@ Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   const Vec2 base = mesh.point(behind);
   const Vec2 step_out = isoparametric - base;
   if (step_out.norm() == 0) return isoparametric;
-  const double distance = ideal_distance(mesh, s, behind);
+  // Half-way between what the front asks for and the size that the input has here: rows keep to its grading.
+  const double distance = 0.5 * (ideal_distance(mesh, s, behind) + step.size[v]);
   const Vec2 by_length = base + step_out.normalized() * distance;
 
   const Vec2 to_next = mesh.point(mesh.target(s.outgoing)) - base;
