@@ -15,6 +15,10 @@ constexpr double kStrongTransition = 20;
 /// A move must leave the worst corner around above this sine, unless it was worse before.
 constexpr double kWorstSine = 0.05;
 constexpr int kHalvings = 3;
+/// A row is as high as the front asks for by this share less, and as the edges of the input are here by this share: so
+/// it keeps to the input's grading. Chosen by us on graded meshes: 0, 0.5, 0.75 gave 8.2, 6.9, 6.0 %
+/// irregular nodes on one with embedded points, and sizes nearer to the input's.
+constexpr double kSizeShare = 0.75;
 
 struct Surrounding {
   int quads = 0;
@@ -108,8 +112,8 @@ Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   const Vec2 base = mesh.point(behind);
   const Vec2 step_out = isoparametric - base;
   if (step_out.norm() == 0) return isoparametric;
-  // Half-way between what the front asks for and the size that the input has here: rows keep to its grading.
-  const double distance = 0.5 * (ideal_distance(mesh, s, behind) + step.size[v]);
+  const double distance =
+      (1 - kSizeShare) * ideal_distance(mesh, s, behind) + kSizeShare * step.size[v];
   const Vec2 by_length = base + step_out.normalized() * distance;
 
   const Vec2 to_next = mesh.point(mesh.target(s.outgoing)) - base;
