@@ -12,6 +12,8 @@ namespace {
 
 /// A front that makes more steps than this for each triangle of the input is going round in circles.
 constexpr std::size_t kStepsPerTriangle = 6;
+/// A front edge longer than this times the edges of the input ahead is split.
+constexpr double kTooLong = 2.0;
 /// Base edges that were set aside are tried again this often.
 constexpr int kMostRounds = 8;
 
@@ -103,6 +105,7 @@ class Morph {
     if (!forced)
       for (bool left : {true, false})
         if (special_case(base, left)) return true;
+    if (!forced && refine(base)) return true;
     if (attempt([&] { return close_small_loop(step_, base); })) return ++counts_.small_loops, true;
     if (attempt([&] { return make_quad(base); })) return ++counts_.quads, true;
     return false;
@@ -178,11 +181,20 @@ class Morph {
       return false;
     }
     if (!transition || front_.state(base).corners() == 2) return false;
-    return attempt([&] {
-      const Index split = transition_split(step_, in, out);
-      forced_ = split;
-      return split != kNone;
-    }) && (++counts_.transition_splits, true);
+    return split(l1 > l2 ? in : out, mesh_.target(in));
+  }
+
+  bool split(Index longer, Index k) {
+    return attempt([&] { return (forced_ = transition_split(step_, longer, k)) != kNone; }) &&
+           (++counts_.transition_splits, true);
+  }
+
+  /// Where the input gets finer than the front, the front has to follow, whatever its neighbours' lengths.
+  bool refine(Index base) {
+    const Index apex = mesh_.target(mesh_.next(base)), from = mesh_.origin(base), to = mesh_.target(base);
+    const double size = std::min({step_.size[from], step_.size[to], step_.size[apex]});
+    if (mesh_.length(base) < kTooLong * size) return false;
+    return split(base, step_.size[from] < step_.size[to] ? from : to);
   }
 
   double seam_angle(Index v) const {

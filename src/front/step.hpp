@@ -60,9 +60,10 @@ Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_tri
 bool seam(Step& step, Index incoming, Index outgoing);
 /// Seam of two front edges of very different length: the longer is split first. Thesis 2.2.4, figure 2.1.
 bool transition_seam(Step& step, Index incoming, Index outgoing);
-/// Splits the longer of two front edges and the quad behind it. Returns the new front edge
-/// that is to be the next base, or kNone. Thesis 2.2.4, figure 3.3.
-Index transition_split(Step& step, Index incoming, Index outgoing);
+/// Splits a front edge that is too long, and the quad behind it; the part of the quad at `k`, one of the edge's ends,
+/// becomes a quad with half of the edge. Returns the new front edge that is to be the next base, or kNone.
+/// Thesis 2.2.4, figure 3.3.
+Index transition_split(Step& step, Index longer, Index k);
 
 // --- small_loops.cpp --------------------------------------------------------------------------------------
 

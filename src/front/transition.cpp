@@ -20,13 +20,11 @@ struct SplitEdge {
 };
 
 /// Splits the longer edge and the triangle ahead of it. Behind must be a quad.
-SplitEdge split_longer(Step& step, Index incoming, Index outgoing) {
+SplitEdge split_longer(Step& step, Index longer, Index k) {
   kernel::Mesh& mesh = step.mesh;
   SplitEdge s;
-  s.incoming = mesh.length(incoming) > mesh.length(outgoing);
-  const Index longer = s.incoming ? incoming : outgoing;
+  s.incoming = mesh.target(longer) == k;
   if (!mesh.is_quad(mesh.face(Mesh::twin(longer)))) return s;
-  const Index k = mesh.target(incoming);
   if (mesh.length(longer) < kLeastHalf * 2 * step.size[k]) return s;
   const Index m =
       split_triangles(step, longer, 0.5 * (mesh.point(mesh.origin(longer)) + mesh.point(mesh.target(longer))));
@@ -52,7 +50,8 @@ bool transition_seam(Step& step, Index incoming, Index outgoing) {
   const Index k = mesh.target(incoming);
   if (mesh.origin(incoming) == mesh.target(outgoing)) return false;
   const unsigned level = std::max(step.front.level(incoming), step.front.level(outgoing));
-  const SplitEdge s = split_longer(step, incoming, outgoing);
+  const bool is_incoming_longer = mesh.length(incoming) > mesh.length(outgoing);
+  const SplitEdge s = split_longer(step, is_incoming_longer ? incoming : outgoing, k);
   if (s.middle == kNone) return false;
 
   // Behind the front: cut the triangle (k, middle, y) off the five-sided face.
@@ -78,16 +77,14 @@ bool transition_seam(Step& step, Index incoming, Index outgoing) {
   return true;
 }
 
-Index transition_split(Step& step, Index incoming, Index outgoing) {
+Index transition_split(Step& step, Index longer, Index k) {
   kernel::Mesh& mesh = step.mesh;
-  const Index k = mesh.target(incoming);
-  const unsigned level = std::max(step.front.level(incoming), step.front.level(outgoing));
-  const SplitEdge s = split_longer(step, incoming, outgoing);
+  const unsigned level = step.front.level(longer);
+  const SplitEdge s = split_longer(step, longer, k);
   if (s.middle == kNone) return kNone;
 
   // Behind is the ring k, m, p, x, y (or its mirror image). Cut y-p, put c on the cut, cut m-c: two quads
   // behind the front and the triangle m, p, c ahead of it.
-  const Index pentagon = mesh.face(s.behind_k);
   Vec2 centre = Vec2::Zero();
   Index h = s.behind_k;
   for (int i = 0; i < 5; ++i, h = mesh.next(h))
@@ -104,7 +101,6 @@ Index transition_split(Step& step, Index incoming, Index outgoing) {
   while (mesh.origin(from_c) != c) from_c = mesh.next(from_c);
   if (mesh.face(from_m) != ring) return kNone;
   const Index mc = mesh.split_face(from_m, from_c);
-  (void)pentagon;
   step.colours.colour_opposite(s.middle, k);
   step.colours.colour_same(c, k);
   step.moved.push_back(c);
