@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <queue>
+#include <span>
 
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
@@ -194,11 +195,13 @@ struct Effort {
   int sweeps;  ///< times the usual number
   int chains;
 };
-constexpr Effort kEfforts[] = {
-    {Cut::ear, Room::none, 1, 6},          {Cut::ear, Room::chain, 1, 6},
-    {Cut::ear, Room::ring, 1, 6},          {Cut::around_node, Room::none, 2, 8},
-    {Cut::ear, Room::chain, 8, 4},         {Cut::ear, Room::ring, 8, 4},
-    {Cut::around_node, Room::chain, 8, 8}, {Cut::ear, Room::two_rings, 8, 4}};
+constexpr Effort kLight[] = {{Cut::ear, Room::none, 1, 6},
+                            {Cut::ear, Room::chain, 1, 4},
+                            {Cut::around_node, Room::none, 1, 4}};
+constexpr Effort kHeavy[] = {{Cut::ear, Room::ring, 2, 4},
+                            {Cut::ear, Room::chain, 8, 2},
+                            {Cut::around_node, Room::chain, 8, 4},
+                            {Cut::ear, Room::two_rings, 8, 2}};
 
 /// The faces on a path, the one behind its last edge too.
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
@@ -229,9 +232,10 @@ bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& 
 }
 
 /// Passes triangle f to a near partner at one go. Little room and little effort come first.
-bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
+bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f,
+                  std::span<const Effort> efforts) {
   bool done = false;
-  for (const Effort& effort : kEfforts) {
+  for (const Effort& effort : efforts) {
     for (int i = 0; i < effort.chains && !done; ++i) {
       // By turns the nearest partner by another way, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
@@ -248,7 +252,7 @@ bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Search& search,
 /// Walks triangle f to a partner, face by face: each step leaves a valid mesh, so a long way needs no
 /// untangling as a whole. A step that fails makes the walk go round.
 bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
-  constexpr int kSteps = 400;
+  constexpr int kSteps = 120;
   constexpr Effort kStepEfforts[] = {{Cut::ear, Room::none, 1, 1},
                                      {Cut::around_node, Room::none, 1, 1},
                                      {Cut::ear, Room::chain, 2, 1},
@@ -287,7 +291,10 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
     if (triangles.size() < 2) return triangles.size();
     for (Index f : triangles) {
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
-      if (pass_at_once(mesh, thorough, search, f) || walk(mesh, thorough, search, f)) progress = true;
+      const bool passed = pass_at_once(mesh, thorough, search, f, kLight) ||
+                          walk(mesh, thorough, search, f) ||
+                          (mesh.is_triangle(f) && pass_at_once(mesh, thorough, search, f, kHeavy));
+      progress = progress || passed;
     }
   }
   return triangles_of(mesh).size();

@@ -11,6 +11,9 @@ constexpr std::size_t kMostTrianglesInGap = 24;
 /// no fault of the longer edge.
 constexpr double kLeastHalf = 0.7;
 
+/// How far the node behind a split edge moves from the centroid of its quad to the edge's middle.
+constexpr double kTowardsFront = 0.4;
+
 /// The longer of two front edges at k, split at its middle, and the five-sided face behind it.
 struct SplitEdge {
   Index middle = kNone;   ///< new node
@@ -89,6 +92,8 @@ Index transition_split(Step& step, Index longer, Index k) {
   Index h = s.behind_k;
   for (int i = 0; i < 5; ++i, h = mesh.next(h))
     if (mesh.origin(h) != s.middle) centre += mesh.point(mesh.origin(h)) / 4;
+  // The thesis puts c at the centroid; in a parallelogram that is on the cut, a straight corner of the far quad.
+  centre += kTowardsFront * (mesh.point(s.middle) - centre);
   const Index from_y = s.incoming ? mesh.prev(s.behind_k) : mesh.next(mesh.next(s.behind_k));
   const Index from_p = s.incoming ? mesh.next(s.behind_p) : s.behind_p;
   const Index cut = mesh.split_face(from_y, from_p);  // y -> p
@@ -105,6 +110,7 @@ Index transition_split(Step& step, Index longer, Index k) {
   step.colours.colour_same(c, k);
   step.moved.push_back(c);
   const Index base = step.front.contains(mc) ? mc : Mesh::twin(mc);
+  smooth_around(step, mesh.face(Mesh::twin(base)));
   if (!step.front.contains(base) || !mesh.is_valid_star(c) || !mesh.is_valid_star(s.middle))
     return kNone;
   h = mesh.out(c);
