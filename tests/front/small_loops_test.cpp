@@ -44,6 +44,16 @@ TEST_CASE("small loop: six edges become two quads along the best diagonal") {
   }
 }
 
+TEST_CASE("small loop: of several diagonals that will do the best is taken") {
+  // Bottom and top bulge a little, so that 0-3 and 5-2 make quads too, with blunt corners.
+  for (Index i = 0; i < 6; ++i) {
+    CAPTURE(i);
+    Scene s(star({{0, 0}, {1, -0.3}, {2, 0}, {2, 1}, {1, 1.3}, {0, 1}}, {0.9, 0.5}));
+    REQUIRE(s.attempt([&] { return close_small_loop(s.step, s.at(i, (i + 1) % 6)); }));
+    CHECK(faces_of(s.mesh) == Polygons{{0, 1, 4, 5}, {1, 2, 3, 4}});
+  }
+}
+
 TEST_CASE("small loop: a loop within quads is closed like one at the boundary") {
   //   6---7---8---9         the cell 1, 2, 7... in the middle is left
   Scene s([] {
