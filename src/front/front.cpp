@@ -19,25 +19,6 @@ Index Front::prev(Index h) const {
   return e;
 }
 
-Index Front::corner_of(Index h) const {
-  Index e = h;
-  do {
-    if (contains(e)) return e;
-    e = mesh_.rotate_cw(e);
-    if (!mesh_.is_triangle(mesh_.face(e))) return kNone;
-  } while (e != h);
-  return kNone;
-}
-
-bool Front::is_on_front(Index v) const {
-  Index h = mesh_.out(v);
-  do {
-    if (!mesh_.is_triangle(mesh_.face(h))) return true;
-    h = mesh_.rotate_ccw(h);
-  } while (h != mesh_.out(v));
-  return false;
-}
-
 double Front::angle_between(Index incoming, Index outgoing) const {
   const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
   const double angle = ccw_angle(ahead, back);

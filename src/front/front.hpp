@@ -35,10 +35,6 @@ class Front {
   /// The front edge that follows (precedes) h through the triangles ahead. O(valence).
   Index next(Index h) const;
   Index prev(Index h) const;
-  /// The front edge that leaves origin(h) on the clockwise side of the fan of triangles around h, or kNone
-  /// if origin(h) is not on the front.
-  Index corner_of(Index h) const;
-  bool is_on_front(Index v) const;
   /// Angle through the triangles ahead between h and the front edge before (after) it, in (0, 2 pi].
   double angle_left(Index h) const { return angle_between(prev(h), h); }
   double angle_right(Index h) const { return angle_between(h, next(h)); }

@@ -19,7 +19,7 @@ class ExactSum {
       if (error != 0) parts_[kept++] = error;
       value = sum;
     }
-    parts_[kept++] = value;
+    if (value != 0 || kept == 0) parts_[kept++] = value;  // the last part alone decides the sign
     size_ = kept;
   }
   void add_product(double a, double b) {

@@ -125,6 +125,8 @@ double Mesh::smallest_sine(Index f) const {
 
 void Mesh::set_point(Index v, const Vec2& p) { edit_vertex(v).point = p; }
 
+void Mesh::set_fixed(Index v) { edit_vertex(v).fixed = true; }
+
 void Mesh::link(Index h, Index after) {
   edit_half_edge(h).next = after;
   edit_half_edge(after).prev = h;

@@ -81,7 +81,7 @@ class Mesh {
 
   // --- edits ----------------------------------------------------------------------------------------
   void set_point(Index v, const Vec2& p);
-  void set_fixed(Index v) { vertices_[v].fixed = true; }
+  void set_fixed(Index v);
   /// New vertex at p on the edge of h: h ends there. Both faces gain a side. Returns the vertex.
   Index split_edge(Index h, const Vec2& p);
   /// New edge from origin(g) to origin(h), two half-edges of one face; it lies left of the face's part

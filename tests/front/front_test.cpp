@@ -30,8 +30,6 @@ TEST_CASE("front: at the start it is the boundary, as half-edges with triangles 
   CHECK(s.loop_nodes(s.at(0, 1)) == std::vector<Index>{0, 1, 2, 5, 8, 7, 6, 3});
   CHECK_FALSE(s.front.contains(s.at(1, 0)));
   CHECK_FALSE(s.front.contains(s.at(1, 4)));
-  CHECK_FALSE(s.front.is_on_front(4));
-  CHECK(s.front.is_on_front(3));
 }
 
 TEST_CASE("front: behind a quad it goes around the quad") {
@@ -61,7 +59,6 @@ TEST_CASE("front: next and prev are inverse on every edge of random meshes, and 
       REQUIRE(s.front.prev(s.front.next(h)) == h);
       REQUIRE(s.front.next(s.front.prev(h)) == h);
       REQUIRE(s.mesh.origin(s.front.next(h)) == s.mesh.target(h));
-      REQUIRE(s.front.corner_of(h) == h);
       if (!seen.contains(h))
         for (Index e : s.loop(h)) {
           REQUIRE(seen.insert(e).second);
@@ -81,9 +78,6 @@ TEST_CASE("front: where loops touch, a node has four front edges and each loop k
   const Scene s(cells({false, true, true, false}));
   CHECK(s.loop_nodes(s.at(0, 1)) == std::vector<Index>{0, 1, 4, 3});
   CHECK(s.loop_nodes(s.at(4, 5)) == std::vector<Index>{4, 5, 8, 7});
-  // corner_of finds the front edge on the clockwise side of the fan that it is asked about.
-  CHECK(s.front.corner_of(s.at(4, 8)) == s.at(4, 5));
-  CHECK(s.front.corner_of(s.at(4, 3)) == s.at(4, 3));
 }
 
 TEST_CASE("front: angles are measured through the triangles ahead") {

@@ -74,9 +74,7 @@ TEST_CASE("find_defects: a straight corner of a quad is a defect, of the boundar
   CHECK(says(mesh, "not strictly convex", true));
 }
 
-// FAILS (bug found): `find_defects` compares only edges that are inside on both sides, so that an inner edge beside an
-// edge of the boundary between the same two nodes is not seen.
-TEST_CASE("find_defects: an inner edge and an edge of the boundary between the same nodes" * doctest::should_fail()) {
+TEST_CASE("find_defects: an inner edge and an edge of the boundary between the same nodes") {
   //     1            Three triangles around node 4 fill the triangle 0, 1, 2, whose side 0-2 is boundary; on its
   //   / | \          other sides lies, folded over, the quad 0, 1, 2, 3. Its diagonal 0-2 would be a second edge.
   //  0--4--2         Shape does not matter here.
