@@ -201,6 +201,7 @@ constexpr Effort kLight[] = {{Cut::ear, Room::none, 1, 6},
 constexpr Effort kHeavy[] = {{Cut::ear, Room::ring, 2, 4},
                             {Cut::ear, Room::chain, 8, 2},
                             {Cut::around_node, Room::chain, 8, 4},
+                            {Cut::around_node, Room::ring, 8, 4},
                             {Cut::ear, Room::two_rings, 8, 2}};
 
 /// The faces on a path, the one behind its last edge too.

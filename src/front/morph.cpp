@@ -13,7 +13,7 @@ namespace {
 /// A front that makes more steps than this for each triangle of the input is going round in circles.
 constexpr std::size_t kStepsPerTriangle = 6;
 /// A front edge longer than this times the edges of the input ahead is split.
-constexpr double kTooLong = 2.5;
+constexpr double kTooLong = 2.2;
 /// Base edges that were set aside are tried again this often.
 constexpr int kMostRounds = 8;
 

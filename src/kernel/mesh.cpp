@@ -123,7 +123,7 @@ double Mesh::smallest_sine(Index f) const {
 
 // --- edits ----------------------------------------------------------------------------------------------
 
-void Mesh::set_point(Index v, const Vec2& p) { edit_vertex(v).point = p; }
+void Mesh::set_point(Index v, Vec2 p) { edit_vertex(v).point = p; }
 
 void Mesh::set_fixed(Index v) { edit_vertex(v).fixed = true; }
 
@@ -142,7 +142,7 @@ void Mesh::refresh_out(Index v, Index h) {
   if (out(v) != h) set_out(v, h);
 }
 
-Index Mesh::split_edge(Index h, const Vec2& p) {
+Index Mesh::split_edge(Index h, Vec2 p) {
   const Index t = twin(h), b = target(h), m = new_vertex(p);
   const Index n = new_edge(m, b);
   const Index after = next(h), before = prev(t), f = face(h), g = face(t);
@@ -281,7 +281,7 @@ void Mesh::remove_two_gon(Index h) {
   kill_edge(k);
 }
 
-Index Mesh::open_quad(Index h, Index k, const Vec2& p) {
+Index Mesh::open_quad(Index h, Index k, Vec2 p) {
   //        x                 x
   //        |               /   \        The edges between h = (v, x) and k = (v, y), counter-clockwise,
   //   -----v-----  ->  ---w  Q  v---    go over to w.

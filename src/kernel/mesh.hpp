@@ -80,10 +80,11 @@ class Mesh {
   double smallest_sine(Index f) const;
 
   // --- edits ----------------------------------------------------------------------------------------
-  void set_point(Index v, const Vec2& p);
+  // Points are taken by value: a new vertex may move the array that a reference points into.
+  void set_point(Index v, Vec2 p);
   void set_fixed(Index v);
   /// New vertex at p on the edge of h: h ends there. Both faces gain a side. Returns the vertex.
-  Index split_edge(Index h, const Vec2& p);
+  Index split_edge(Index h, Vec2 p);
   /// New edge from origin(g) to origin(h), two half-edges of one face; it lies left of the face's part
   /// that starts with h. Returns the half-edge origin(g) -> origin(h).
   Index split_face(Index g, Index h);
@@ -97,7 +98,7 @@ class Mesh {
   bool can_collapse(Index h) const;  ///< topology only: the result is still a mesh
   /// Splits v: the edges from h (exclusive) counter-clockwise to k (exclusive) move to a new vertex at p, and a
   /// quad v, target(h), new, target(k) opens. h == k is not allowed. Returns the new vertex.
-  Index open_quad(Index h, Index k, const Vec2& p);
+  Index open_quad(Index h, Index k, Vec2 p);
   /// Puts a layer of quads along the inside of a closed loop of half-edges (faces to shrink on their left): every
   /// node of the loop gets a copy for the inside, moved by `share` towards the centre of its faces there.
   /// Precondition: the loop passes each node once. Returns the copies, in the loop's order.
@@ -124,7 +125,7 @@ class Mesh {
   void set_face(Index h, Index f) { edit_half_edge(h).face = f; }
   Index new_edge(Index from, Index to);
   Index new_face();
-  Index new_vertex(const Vec2& p);
+  Index new_vertex(Vec2 p);
   void kill_edge(Index h);
   void kill_face(Index f);
   void kill_vertex(Index v);

@@ -47,7 +47,7 @@ Index Mesh::new_edge(Index from, Index to) {
   return h;
 }
 
-Index Mesh::new_vertex(const Vec2& p) {
+Index Mesh::new_vertex(Vec2 p) {
   Index v = take(vertex_pool_, recording_);
   if (v == kNone) {
     v = Index(vertices_.size());

@@ -55,7 +55,7 @@ bool is_movable(const kernel::Mesh& mesh, Index v) {
 /// fades. [Escobar03] Returns false if some element stays invalid.
 bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   constexpr int kHalvings = 8;
-  constexpr double kFirstDelta = 0.5, kLastDelta = 1e-4;
+  constexpr double kFirstDelta = 0.5, kLastDelta = 1e-7;
   const double fade = std::pow(kLastDelta / kFirstDelta, 1.0 / sweeps);
   double share_of_area = kFirstDelta;
   for (int sweep = 0; sweep < sweeps; ++sweep, share_of_area *= fade) {

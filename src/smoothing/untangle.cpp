@@ -51,8 +51,11 @@ bool is_movable(const kernel::Mesh& mesh, Index v) { return !mesh.is_fixed(v) &&
 }  // namespace
 
 bool untangle_node(kernel::Mesh& mesh, Index v) {
+  // Trying all triples is quartic in the number of corners: for a fan of many elements it is left to the energy.
+  constexpr std::size_t kMostCorners = 48;
   if (!is_movable(mesh, v)) return false;
   const std::vector<CornerArea> areas = corner_areas(mesh, v);
+  if (areas.size() > kMostCorners) return false;
   // The optimum of three unknowns (x and the smallest area) is a vertex: three areas are equal there. With a
   // dozen or two of corners, trying all triples is simplest.
   Vec2 best = Vec2::Zero();
