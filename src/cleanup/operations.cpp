@@ -9,12 +9,10 @@ namespace {
 
 using kernel::Mesh;
 
-bool is_free(const Mesh& mesh, Index v) { return !mesh.is_fixed(v) && !mesh.is_boundary(v); }
-
 /// Gain of taking one edge from v. An interior node that is left with two becomes a doublet and vanishes, which
 /// takes one edge from each of its neighbours; those are `rest` and `merged`.
 int gain_of_losing_edge(const Mesh& mesh, const Score& score, Index v) {
-  if (is_free(mesh, v) && mesh.valence(v) == 3) return score.cost(v);
+  if (mesh.is_free(v) && mesh.valence(v) == 3) return score.cost(v);
   return score.gain(v, -1);
 }
 
@@ -23,7 +21,7 @@ int close_gain(const Mesh& mesh, const Score& score, Index h) {
               d = mesh.origin(mesh.prev(h));
   const int merged = int(mesh.valence(a) + mesh.valence(c)) - 2 - score.ideal(c);
   int doublets = 0;
-  for (Index v : {b, d}) doublets += is_free(mesh, v) && mesh.valence(v) == 3;
+  for (Index v : {b, d}) doublets += mesh.is_free(v) && mesh.valence(v) == 3;
   const int after = merged - doublets;
   return score.cost(a) + score.cost(c) - after * after + gain_of_losing_edge(mesh, score, b) +
          gain_of_losing_edge(mesh, score, d);
@@ -33,8 +31,8 @@ void add_closes(const Mesh& mesh, const Score& score, Index h, int least, std::v
   // Both diagonals of the face; what is free vanishes into the other end.
   for (Index start : {h, mesh.next(h)}) {
     const Index opposite = mesh.next(mesh.next(start));
-    const Index from = is_free(mesh, mesh.origin(start)) ? start : opposite;
-    if (!is_free(mesh, mesh.origin(from))) continue;
+    const Index from = mesh.is_free(mesh.origin(start)) ? start : opposite;
+    if (!mesh.is_free(mesh.origin(from))) continue;
     const int gain = close_gain(mesh, score, from);
     if (gain >= least) out.push_back({Action::close, from, kNone, gain});
   }
@@ -45,7 +43,7 @@ void add_turns(const Mesh& mesh, const Score& score, Index h, int least, std::ve
   if (!mesh.is_quad(mesh.face(h)) || !mesh.is_quad(mesh.face(t)) || mesh.face(h) == mesh.face(t)) return;
   const Index a = mesh.origin(h), b = mesh.target(h);
   for (Index v : {a, b})
-    if (mesh.valence(v) < 3 || (is_free(mesh, v) && mesh.valence(v) < 4)) return;
+    if (mesh.valence(v) < 3 || (mesh.is_free(v) && mesh.valence(v) < 4)) return;
   const int base = score.gain(a, -1) + score.gain(b, -1);
   // Hexagon: h: a -> b, then c, d behind in its face; t: b -> a, then e, g in the other.
   const Index c = mesh.target(mesh.next(h)), d = mesh.origin(mesh.prev(h));
@@ -81,12 +79,12 @@ void add_opens(const Mesh& mesh, const Score& score, Index v, int least, std::ve
 
 void add_star_removals(const Mesh& mesh, const Score& score, Index v, int least,
                        std::vector<Candidate>& out) {
-  if (!is_free(mesh, v) || mesh.valence(v) != 3) return;
+  if (!mesh.is_free(v) || mesh.valence(v) != 3) return;
   Index h = mesh.out(v);
   for (int i = 0; i < 3; ++i, h = mesh.rotate_ccw(h)) {
     if (!mesh.is_quad(mesh.face(h))) return;
     const Index lost = mesh.target(h);
-    if (is_free(mesh, lost) && mesh.valence(lost) < 4) return;
+    if (mesh.is_free(lost) && mesh.valence(lost) < 4) return;
   }
   for (int i = 0; i < 3; ++i, h = mesh.rotate_ccw(h)) {
     // The diagonal joins a neighbour of v with the corner of the face across from it.
@@ -100,7 +98,7 @@ void add_star_removals(const Mesh& mesh, const Score& score, Index v, int least,
 
 bool close(Mesh& mesh, Index h, std::vector<Index>& nodes) {
   const Index a = mesh.origin(h), c = mesh.target(mesh.next(h));
-  const bool both = is_free(mesh, c);
+  const bool both = mesh.is_free(c);
   const Vec2 middle = 0.5 * (mesh.point(a) + mesh.point(c));
   const Index diagonal = mesh.split_face(h, mesh.next(mesh.next(h)));
   if (!mesh.can_collapse(diagonal)) return false;
@@ -123,7 +121,7 @@ bool turn(Mesh& mesh, Index h, bool left) {
 }
 
 bool remove_star(Mesh& mesh, Index h) {
-  const Index v = mesh.origin(h), k = mesh.rotate_ccw(h), l = mesh.rotate_ccw(k);
+  const Index k = mesh.rotate_ccw(h), l = mesh.rotate_ccw(k);
   const Index near = mesh.target(h), far = mesh.target(mesh.next(k));
   if (mesh.find(near, far) != kNone) return false;
   std::vector<Index> ring, faces;
@@ -133,7 +131,6 @@ bool remove_star(Mesh& mesh, Index h) {
     ring.push_back(mesh.next(mesh.next(spoke)));
   }
   if (faces[0] == faces[1] || faces[1] == faces[2] || faces[0] == faces[2]) return false;
-  (void)v;
   mesh.make_face(ring, faces);
   mesh.split_face(ring[0], ring[3]);  // from target(h) to the corner across
   return true;

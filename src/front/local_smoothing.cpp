@@ -160,7 +160,7 @@ bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal) {
 
 void smooth_node(Step& step, Index v) {
   kernel::Mesh& mesh = step.mesh;
-  if (mesh.is_fixed(v) || mesh.is_boundary(v)) return;
+  if (!mesh.is_free(v)) return;
   const Surrounding s = look_around(step, v);
   Vec2 goal;
   if (s.front_edges == 0)

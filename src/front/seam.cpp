@@ -20,8 +20,6 @@ int quads_around(const Mesh& mesh, Index v) {
   return quads;
 }
 
-bool is_free(const Mesh& mesh, Index v) { return !mesh.is_fixed(v) && !mesh.is_boundary(v); }
-
 /// Gives every front edge at v the level of the front that it continues.
 void inherit_level(Step& step, Index v, unsigned level) {
   const Mesh& mesh = step.mesh;
@@ -47,7 +45,7 @@ Index some_quad_around(const Mesh& mesh, Index v) {
 bool seam(Step& step, Index incoming, Index outgoing) {
   kernel::Mesh& mesh = step.mesh;
   const Index p = mesh.origin(incoming), k = mesh.target(incoming), n = mesh.target(outgoing);
-  const bool free_p = is_free(mesh, p), free_n = is_free(mesh, n);
+  const bool free_p = mesh.is_free(p), free_n = mesh.is_free(n);
   if (p == n || (!free_p && !free_n) || mesh.is_boundary(k)) return false;
   if (quads_around(mesh, k) < kFewestQuads) return false;
   const unsigned level = std::max(step.front.level(incoming), step.front.level(outgoing));

@@ -50,6 +50,8 @@ class Mesh {
   Index degree(Index f) const { return faces_[f].degree; }
   const Vec2& point(Index v) const { return vertices_[v].point; }
   bool is_fixed(Index v) const { return vertices_[v].fixed; }
+  /// May move, and vanish.
+  bool is_free(Index v) const { return !is_fixed(v) && !is_boundary(v); }
   bool is_triangle(Index f) const { return f != kNone && faces_[f].degree == 3; }
   bool is_quad(Index f) const { return f != kNone && faces_[f].degree == 4; }
   bool is_boundary_edge(Index h) const { return face(h) == kNone || face(h ^ 1) == kNone; }

@@ -47,10 +47,6 @@ Vec2 direction(const Energy& energy, double edge) {
   return length > 0 ? Vec2(-g * (kDownhill * edge / length)) : Vec2::Zero();
 }
 
-bool is_movable(const kernel::Mesh& mesh, Index v) {
-  return mesh.is_live_vertex(v) && !mesh.is_fixed(v) && !mesh.is_boundary(v);
-}
-
 /// Makes the elements around `nodes` valid by moving the nodes down a regularised energy whose regularisation
 /// fades. [Escobar03] Returns false if some element stays invalid.
 bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
@@ -122,7 +118,7 @@ class Passes {
 }  // namespace
 
 double relax_node(kernel::Mesh& mesh, Index v) {
-  if (!is_movable(mesh, v)) return 0;
+  if (!mesh.is_live_vertex(v) || !mesh.is_free(v)) return 0;
   const double edge = mesh.length(mesh.out(v));
   const Energy energy = energy_around(mesh, v);
   if (!energy.finite) {
@@ -146,7 +142,7 @@ double relax_node(kernel::Mesh& mesh, Index v) {
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
   std::vector<Index> nodes;
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
-    if (is_movable(mesh, v)) nodes.push_back(v);
+    if (mesh.is_live_vertex(v) && mesh.is_free(v)) nodes.push_back(v);
   Passes(mesh, options).run(nodes);
 }
 
@@ -167,7 +163,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
       } while (h != mesh.out(around[i]));
     }
   }
-  std::erase_if(around, [&](Index v) { return !is_movable(mesh, v); });
+  std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });
   if (!std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); }))
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   for (int pass = 0; pass < options.iterations; ++pass) {

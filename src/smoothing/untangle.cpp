@@ -46,14 +46,12 @@ double smallest(const std::vector<CornerArea>& areas, const Vec2& x) {
   return least;
 }
 
-bool is_movable(const kernel::Mesh& mesh, Index v) { return !mesh.is_fixed(v) && !mesh.is_boundary(v); }
-
 }  // namespace
 
 bool untangle_node(kernel::Mesh& mesh, Index v) {
   // Trying all triples is quartic in the number of corners: for a fan of many elements it is left to the energy.
   constexpr std::size_t kMostCorners = 48;
-  if (!is_movable(mesh, v)) return false;
+  if (!mesh.is_free(v)) return false;
   const std::vector<CornerArea> areas = corner_areas(mesh, v);
   if (areas.size() > kMostCorners) return false;
   // The optimum of three unknowns (x and the smallest area) is a vertex: three areas are equal there. With a
@@ -121,7 +119,7 @@ double smallest_sine_around(const kernel::Mesh& mesh, Index v) {
 }
 
 bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
-  if (!is_movable(mesh, v)) return false;
+  if (!mesh.is_free(v)) return false;
   constexpr int kDirections = 8, kShrinkings = 6;
   constexpr double kFirstStep = 0.25, kLeastGain = 1e-6;
   double shortest = std::numeric_limits<double>::infinity();

@@ -17,7 +17,7 @@ Index remove_doublet(kernel::Mesh& mesh, Index v) {
 void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {  // grows
     const Index v = nodes[i];
-    if (!mesh.is_live_vertex(v) || mesh.is_boundary(v) || mesh.is_fixed(v) || mesh.valence(v) != 2)
+    if (!mesh.is_live_vertex(v) || !mesh.is_free(v) || mesh.valence(v) != 2)
       continue;
     const Index h = mesh.out(v);
     const Index f = mesh.face(h), g = mesh.face(mesh.rotate_ccw(h));
