@@ -1,6 +1,7 @@
 #include "elimination/eliminate.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <queue>
 #include <span>
 
@@ -199,10 +200,10 @@ constexpr Effort kLight[] = {{Cut::ear, Room::none, 1, 6},
                             {Cut::ear, Room::chain, 1, 4},
                             {Cut::around_node, Room::none, 1, 4}};
 constexpr Effort kHeavy[] = {{Cut::ear, Room::ring, 2, 4},
-                            {Cut::ear, Room::chain, 8, 2},
-                            {Cut::around_node, Room::chain, 8, 4},
-                            {Cut::around_node, Room::ring, 8, 4},
-                            {Cut::ear, Room::two_rings, 8, 2}};
+                            {Cut::ear, Room::chain, 4, 2},
+                            {Cut::around_node, Room::chain, 4, 4},
+                            {Cut::around_node, Room::ring, 4, 4},
+                            {Cut::ear, Room::two_rings, 4, 2}};
 
 /// The faces on a path, the one behind its last edge too.
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
@@ -211,10 +212,23 @@ std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
   return faces;
 }
 
+/// Work that hard cases may cost, in sweeps over a chain's surroundings: what cannot be had for that is given up, so
+/// that the time stays bounded by the size of the region.
+class Budget {
+ public:
+  explicit Budget(const Mesh& mesh) : sweeps_(2000 + 10 * std::int64_t(mesh.face_slots())) {}
+  bool is_spent() const { return sweeps_ <= 0; }
+  void spend(int sweeps) { sweeps_ -= sweeps; }
+
+ private:
+  std::int64_t sweeps_;
+};
+
 /// One triangle to one partner, or part of the way, in a transaction.
-bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& path,
+bool try_path(Mesh& mesh, SmoothingOptions smoothing, Budget& budget, const std::vector<Index>& path,
               std::size_t crossings, const Effort& effort) {
   smoothing.untangling_sweeps *= effort.sweeps;
+  budget.spend(smoothing.untangling_sweeps);
   std::vector<Index> nodes;
   mesh.begin();
   bool done = true;
@@ -233,15 +247,15 @@ bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& 
 }
 
 /// Passes triangle f to a near partner at one go. Little room and little effort come first.
-bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f,
+bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search& search, Index f,
                   std::span<const Effort> efforts) {
   bool done = false;
   for (const Effort& effort : efforts) {
-    for (int i = 0; i < effort.chains && !done; ++i) {
+    for (int i = 0; i < effort.chains && !done && !budget.is_spent(); ++i) {
       // By turns the nearest partner by another way, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
       if (path.empty() || path.size() > kLongestChain) break;
-      done = try_path(mesh, smoothing, path, path.size(), effort);
+      done = try_path(mesh, smoothing, budget, path, path.size(), effort);
       if (!done) search.avoid(path);
     }
     search.forgive();
@@ -252,25 +266,28 @@ bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Search& search,
 
 /// Walks triangle f to a partner, face by face: each step leaves a valid mesh, so a long way needs no
 /// untangling as a whole. A step that fails makes the walk go round.
-bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
-  constexpr int kSteps = 120;
+bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search& search, Index f) {
+  constexpr int kSteps = 120, kMostFailures = 10;
+  int failures = 0;
   constexpr Effort kStepEfforts[] = {{Cut::ear, Room::none, 1, 1},
                                      {Cut::around_node, Room::none, 1, 1},
                                      {Cut::ear, Room::chain, 2, 1},
                                      {Cut::around_node, Room::chain, 4, 1}};
   bool done = false;
-  for (int step = 0; step < kSteps && !done; ++step) {
+  for (int step = 0; step < kSteps && !done && !budget.is_spent(); ++step) {
     std::vector<Index> path = search.path_to_triangle(f, 0);
     if (path.empty()) break;
     if (path.size() > 2) path.resize(2);
     bool moved = false;
     for (const Effort& effort : kStepEfforts)
-      if ((moved = try_path(mesh, smoothing, path, 1, effort))) break;
+      if ((moved = try_path(mesh, smoothing, budget, path, 1, effort))) break;
     if (moved) {
       done = path.size() == 1;
       if (!done) f = mesh.face(path[1]);
       if (!done && !mesh.is_triangle(f)) break;
     } else {
+      // No way round to a partner next door.
+      if (path.size() == 1 || ++failures > kMostFailures) break;
       path.push_back(Mesh::twin(path.back()));
       search.avoid(path);
     }
@@ -284,6 +301,7 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f
 std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
   pair_triangles(mesh);
   Search search(mesh);
+  Budget budget(mesh);
   SmoothingOptions thorough = smoothing;
   thorough.iterations = std::max(smoothing.iterations, 20);
   for (bool progress = true; progress;) {
@@ -292,9 +310,10 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
     if (triangles.size() < 2) return triangles.size();
     for (Index f : triangles) {
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
-      const bool passed = pass_at_once(mesh, thorough, search, f, kLight) ||
-                          walk(mesh, thorough, search, f) ||
-                          (mesh.is_triangle(f) && pass_at_once(mesh, thorough, search, f, kHeavy));
+      const bool passed = pass_at_once(mesh, thorough, budget, search, f, kLight) ||
+                          walk(mesh, thorough, budget, search, f) ||
+                          (mesh.is_triangle(f) &&
+                           pass_at_once(mesh, thorough, budget, search, f, kHeavy));
       progress = progress || passed;
     }
   }

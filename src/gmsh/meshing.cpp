@@ -67,13 +67,13 @@ std::vector<int> flagged_surfaces() {
   return {tags.begin(), tags.end()};
 }
 
-/// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle of 0
-/// accepts no pair.
+/// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle below 0
+/// accepts no pair (0 still accepts some, the worst ones).
 void forbid_pairing(const std::vector<int>& surfaces) {
   const ScratchFile script(".geo");
   {
     std::ofstream out(script.path());
-    for (int tag : surfaces) out << "Recombine Surface{" << tag << "} = 0;\n";
+    for (int tag : surfaces) out << "Recombine Surface{" << tag << "} = -1;\n";
     out << "Mesh.RecombinationAlgorithm = " << kSimplePairing << ";\n";
     if (!out.flush()) throw InputError("cannot write to the temporary directory " + script.path());
   }

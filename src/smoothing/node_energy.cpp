@@ -25,7 +25,10 @@ struct Regularised {
     return j >= 0 ? 0.5 * (j + root(j)) : 2 * delta * delta / (root(j) - j);
   }
   double dh(double j) const { return h(j) / root(j); }
-  double ddh(double j) const { return 2 * delta * delta / std::pow(root(j), 3); }
+  double ddh(double j) const {
+    const double r = root(j);
+    return 2 * delta * delta / (r * r * r);
+  }
 };
 
 /// Adds mu^2 of the corner with edges a, b. `dn` and `dj` are the gradients of |a|^2 + |b|^2 and of a x b with

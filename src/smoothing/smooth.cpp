@@ -50,11 +50,11 @@ Vec2 direction(const Energy& energy, double edge) {
 /// Makes the elements around `nodes` valid by moving the nodes down a regularised energy whose regularisation
 /// fades. [Escobar03] Returns false if some element stays invalid.
 bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
-  constexpr int kHalvings = 8;
-  constexpr double kFirstDelta = 0.5, kLastDelta = 1e-7;
-  const double fade = std::pow(kLastDelta / kFirstDelta, 1.0 / sweeps);
+  constexpr int kHalvings = 6;
+  constexpr double kFirstDelta = 0.5, kFade = 0.8, kLeastDelta = 1e-8;
   double share_of_area = kFirstDelta;
-  for (int sweep = 0; sweep < sweeps; ++sweep, share_of_area *= fade) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    share_of_area = std::max(kLeastDelta, kFade * share_of_area);
     for (Index v : nodes) {
       const double delta = share_of_area * std::pow(mean_edge(mesh, v), 2);
       const Energy energy = regularised_energy_around(mesh, v, delta);
