@@ -137,12 +137,28 @@ std::vector<std::string> translate(const std::vector<std::string>& arguments, Re
     while (static_cast<int>(values.size()) < row->values && i + 1 < arguments.size()) values.push_back(arguments[++i]);
     if (static_cast<int>(values.size()) != row->values)
       throw UsageError(fmt::format("'{}' needs {} value{}", word, row->values, row->values == 1 ? "" : "s"));
+    // CLI11 would take the next word in its place.
+    if (row->reader == For::kUs && row->values == 1 && values[0].empty())
+      throw UsageError(fmt::format("{} needs a value", row->spelling.substr(0, row->spelling.find(' '))));
     if (row->reader == For::kGmsh)
       note_gmsh_option(*row, values, request);
     else
       words.push_back(values.empty() ? fmt::format("--{}", row->name) : fmt::format("--{}={}", row->name, values[0]));
   }
   return words;
+}
+
+/// What CLI11 says, with the names as --help shows them.
+std::string with_our_spelling(std::string message) {
+  for (const Row& row : kRows) {
+    if (row.spelling.substr(0, 2) == "--") continue;
+    const std::string theirs = fmt::format("--{}", row.name);
+    for (std::size_t at = 0; (at = message.find(theirs, at)) != std::string::npos; ++at) {
+      const std::size_t end = at + theirs.size();
+      if (end == message.size() || !std::isalnum(static_cast<unsigned char>(message[end]))) message.erase(at, 1);
+    }
+  }
+  return message;
 }
 
 }  // namespace
@@ -171,7 +187,7 @@ Request parse(const std::vector<std::string>& arguments) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw UsageError(with_our_spelling(error.what()));
   }
   if (request.help || request.version) return request;
   if (request.input.empty()) throw UsageError("which file? (qmorph IN [-o OUT])");

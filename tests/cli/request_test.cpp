@@ -75,8 +75,8 @@ TEST_CASE("request: what makes no sense is named") {
       {{"a.geo", "-clmax", "0.1mm"}, "is not a positive number"},
       {{"a.geo", "-setnumber", "x", "y"}, "-setnumber: 'y' is not a number"},
       {{"a.geo", "-algo", "magic"}, "-algo: 'magic' is not an algorithm"},
-      {{"a.geo", "-v", "loud"}, "--v"},
-      {{"a.geo", "-nt", "-1"}, "--nt"},
+      {{"a.geo", "-v", "loud"}, "-v"},
+      {{"a.geo", "-nt", "-1"}, "-nt"},
       {{"a.geo", "--surfaces", "x"}, "--surfaces"},
   };
   for (const auto& the_case : kCases) {
@@ -90,6 +90,38 @@ TEST_CASE("request: what makes no sense is named") {
     CAPTURE(message);
     CHECK(message.find(the_case.message) != std::string::npos);
     CHECK(message.find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("request: an empty value is refused and does not take the next word") {
+  const struct {
+    Words words;
+    const char* message;
+  } kCases[] = {
+      {{"-o", "", "a.geo"}, "-o needs a value"},
+      {{"--o=", "a.geo"}, "-o needs a value"},
+      {{"-format", "", "a.geo"}, "-format needs a value"},
+      {{"--stats", "", "a.geo"}, "--stats needs a value"},
+      {{"--surfaces", "", "a.geo"}, "--surfaces needs a value"},
+  };
+  for (const auto& the_case : kCases) {
+    CAPTURE(the_case.words);
+    CHECK_THROWS_WITH_AS(parse(the_case.words), the_case.message, UsageError);
+  }
+  CHECK(parse({"-setstring", "name", "", "a.geo"}).input == "a.geo");
+}
+
+TEST_CASE("request: messages spell the options as the help does") {
+  for (const Words& words : {Words{"a.geo", "-v", "loud"}, Words{"a.geo", "-nt", "-1"}}) {
+    std::string message;
+    try {
+      parse(words);
+    } catch (const UsageError& error) {
+      message = error.what();
+    }
+    CAPTURE(message);
+    CHECK(message.find(words[1]) != std::string::npos);
+    CHECK(message.find("--") == std::string::npos);
   }
 }
 
