@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <new>
@@ -24,15 +25,33 @@
 namespace qmorph::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// Also by different names, through links, and before there is such a file.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  const fs::path first = fs::weakly_canonical(fs::absolute(a, error), error);
+  const fs::path second = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !first.empty() && first == second;
+}
+
 /// Refuses what would fail in the end before hours go into a mesh.
 adapter::OutputPlan check_places(const Request& request) {
   adapter::check_readable(request.input);
+  const auto refuse_stats_at = [&](const std::string& path, std::string_view what) {
+    if (!request.stats.empty() && is_same_file(request.stats, path))
+      throw UsageError(fmt::format("--stats {} is the {}; give the figures a file of their own", request.stats, what));
+  };
+  refuse_stats_at(request.input, "input");
   if (!request.stats.empty()) const adapter::StagedFile probe(request.stats);
-  return adapter::plan_output(request.input, request.output, request.format);
+  const adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, request.format);
+  refuse_stats_at(plan.path, "output");
+  return plan;
 }
 
 int status_of(const ModelReport& model) {

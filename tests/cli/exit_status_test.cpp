@@ -60,6 +60,15 @@ TEST_CASE("status 1: usage, before anything is opened") {
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--surfaces", "9"}), 1, "the model has no surface 9");
 }
 
+TEST_CASE("status 1: figures where the mesh is, by whatever name") {
+  Scene scene("in.geo", kSquare);
+  const std::string detour = scene.directory / "./in.geo";
+  scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", scene.output}), 1, "is the output");
+  scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", scene.input}), 1, "is the input");
+  scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", detour}), 1, "is the input");
+  scene.expect(run_qmorph({scene.input, "--stats", scene.directory / "./in.msh"}), 1, "is the output");
+}
+
 TEST_CASE("status 2: inputs that are none") {
   const struct {
     const char *name, *text, *message;
