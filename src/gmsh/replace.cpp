@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -15,23 +16,55 @@
 namespace qmorph::adapter {
 namespace {
 
-/// Tags of what goes, in order; then tags above all others.
+/// Gmsh looks nodes and elements up by an int: tags above would be taken for others, or for none.
+constexpr std::size_t kMaxTag = std::numeric_limits<int>::max();
+
+/// Tags of what goes, in order; then tags above all others; where there is no more room, those that nothing has.
 class TagPool {
  public:
-  TagPool(std::vector<std::size_t> free, std::size_t max) : free_(std::move(free)), max_(max) {
+  /// \param used gives all tags that must not be given again; asked only when there is no room above `max`
+  TagPool(std::vector<std::size_t> free, std::size_t max, std::function<std::vector<std::size_t>()> used)
+      : free_(std::move(free)), max_(max), used_(std::move(used)) {
     std::sort(free_.begin(), free_.end(), std::greater<>());
   }
   std::size_t next() {
-    if (free_.empty()) return ++max_;
-    const std::size_t tag = free_.back();
-    free_.pop_back();
-    return tag;
+    if (!free_.empty()) {
+      const std::size_t tag = free_.back();
+      free_.pop_back();
+      return tag;
+    }
+    if (max_ < kMaxTag) return ++max_;
+    return next_gap();
   }
 
  private:
+  std::size_t next_gap() {
+    if (gap_ == 0) {
+      taken_ = used_();
+      std::sort(taken_.begin(), taken_.end());
+    }
+    ++gap_;
+    while (at_ < taken_.size() && taken_[at_] <= gap_) gap_ += taken_[at_++] == gap_;
+    // Above the input's largest tag are those that this pool has given out.
+    if (gap_ >= (taken_.empty() ? kMaxTag : taken_.back()))
+      throw InputError(
+          fmt::format("numbers of nodes or elements up to {} leave no room for new ones; renumber the mesh", max_));
+    return gap_;
+  }
+
   std::vector<std::size_t> free_;
   std::size_t max_;
+  std::function<std::vector<std::size_t>()> used_;
+  std::vector<std::size_t> taken_;
+  std::size_t gap_ = 0, at_ = 0;
 };
+
+std::vector<std::size_t> all_element_tags(const ModelMesh& mesh) {
+  std::vector<std::size_t> tags;
+  for (const EntityMesh& entity : mesh.entities)
+    for (const ElementBlock& block : entity.blocks) tags.insert(tags.end(), block.tags.begin(), block.tags.end());
+  return tags;
+}
 
 std::vector<std::size_t> tags_of_removed(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
   std::vector<std::size_t> tags;
@@ -220,8 +253,8 @@ void put_back(const ModelMesh& mesh, const std::vector<EntityMesh>& entities) {
 
 void replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
   if (surfaces.empty()) return;
-  TagPool node_tags({}, mesh.max_node_tag);
-  TagPool element_tags(tags_of_removed(mesh, surfaces), mesh.max_element_tag);
+  TagPool node_tags({}, mesh.max_node_tag, [&] { return mesh.tags; });
+  TagPool element_tags(tags_of_removed(mesh, surfaces), mesh.max_element_tag, [&] { return all_element_tags(mesh); });
   std::vector<EntityMesh> entities;
   for (const ConvertedSurface& converted : surfaces)
     entities.push_back(make_entity(mesh, converted, node_tags, element_tags));

@@ -264,3 +264,21 @@ TEST_CASE("foreign: coordinates with 17 digits come back bit for bit in MSH 2.2"
   CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh"}).status == 0);
   CHECK(read_file(directory / "out.msh").find("0.30000000000000004") != std::string::npos);
 }
+
+TEST_CASE("foreign: new nodes take free numbers where there are none above") {
+  const TemporaryDirectory directory;
+  // A corner of 270 degrees, which no single quad can have.
+  write_file(directory / "in.msh",
+             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n2147483644 0 0 0\n2147483645 2 -1 0\n"
+             "2147483646 1 0 0\n2147483647 2 1 0\n$EndNodes\n$Elements\n2\n"
+             "2147483646 2 2 1 1 2147483644 2147483645 2147483646\n"
+             "2147483647 2 2 1 1 2147483644 2147483646 2147483647\n$EndElements\n");
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  REQUIRE(result.status == 0);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  CHECK(after.mesh.tags.size() > 4);
+  CHECK(after.mesh.max_node_tag == 2147483647);
+  CHECK(after.mesh.max_element_tag == 2147483647);
+  CHECK(element_counts(after, 1).second > 2);
+}
