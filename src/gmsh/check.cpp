@@ -50,18 +50,26 @@ double twice_area(const Mesh& mesh) {
   return sum;
 }
 
+/// The first corner of an element that is not convex, or N.
+template <std::size_t N>
+std::size_t bad_corner(const std::vector<Eigen::Vector3d>& points, const std::array<Index, N>& element,
+                       const Eigen::Vector3d& normal) {
+  for (std::size_t k = 0; k < N; ++k) {
+    const Eigen::Vector3d& p = points[element[k]];
+    const Eigen::Vector3d ahead = points[element[(k + 1) % N]] - p;
+    const Eigen::Vector3d behind = points[element[(k + N - 1) % N]] - p;
+    // The comparison is false for NaN, too.
+    if (!(ahead.cross(behind).dot(normal) > kLeastCornerSine * ahead.norm() * behind.norm())) return k;
+  }
+  return N;
+}
+
 template <std::size_t N>
 std::string find_bad_corner(const QuadMesh& mesh, std::span<const std::array<Index, N>> elements,
                             const Eigen::Vector3d& normal) {
   for (const auto& element : elements)
-    for (std::size_t k = 0; k < N; ++k) {
-      const Eigen::Vector3d& p = mesh.points[element[k]];
-      const Eigen::Vector3d ahead = mesh.points[element[(k + 1) % N]] - p;
-      const Eigen::Vector3d behind = mesh.points[element[(k + N - 1) % N]] - p;
-      // The comparison is false for NaN, too.
-      if (!(ahead.cross(behind).dot(normal) > kLeastCornerSine * ahead.norm() * behind.norm()))
-        return "an element has a corner that is not convex " + at(p);
-    }
+    if (const std::size_t k = bad_corner(mesh.points, element, normal); k < N)
+      return "an element has a corner that is not convex " + at(mesh.points[element[k]]);
   return {};
 }
 
@@ -166,6 +174,14 @@ std::string find_changed_quad(const Patch& patch, const QuadMesh& mesh, const st
 
 Eigen::Vector3d patch_normal(const Patch& patch) { return area_vector(patch).normalized(); }
 
+BadQuad find_bad_quad(const Patch& patch) {
+  const Eigen::Vector3d normal = patch_normal(patch);
+  for (Index q = 0; q < patch.quads.size(); ++q)
+    if (const std::size_t k = bad_corner(patch.points, patch.quads[q], normal); k < 4)
+      return {q, at(patch.points[patch.quads[q][k]])};
+  return {};
+}
+
 std::string find_defect(const Patch& patch, const QuadMesh& mesh) {
   if (std::string defect = find_bad_reference(patch, mesh); !defect.empty()) return defect;
   const std::vector<Index> rows = result_rows(patch, mesh);
@@ -175,7 +191,7 @@ std::string find_defect(const Patch& patch, const QuadMesh& mesh) {
   if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
 
   const Eigen::Vector3d normal = patch_normal(patch);
-  // Quads that were there before are the input's business, good or bad.
+  // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(patch.quads.size());
   if (std::string bad = find_bad_corner<4>(mesh, made, normal); !bad.empty()) return bad;
   if (std::string bad = find_bad_corner<3>(mesh, mesh.triangles, normal); !bad.empty()) return bad;

@@ -11,6 +11,13 @@ namespace qmorph::adapter {
 /// Unit normal that the elements of a planar patch follow: the direction of the sum of their area vectors.
 Eigen::Vector3d patch_normal(const Patch& patch);
 
+/// A quad of the input that is inverted, or has a corner of 180 degrees or more.
+struct BadQuad {
+  Index quad = kNone;  ///< kNone: there is none
+  std::string where;   ///< "at (1, 2, 0)"
+};
+BadQuad find_bad_quad(const Patch& patch);
+
 /// What is wrong with a result, with coordinates, or an empty string. Looks at the invariants I1 to I4 and I6 of the
 /// design: boundary and constraint edges, fixed nodes, conformity, positive corners, area.
 /// Cost: linear.

@@ -111,6 +111,14 @@ void add_stats(const ConversionStats& from, ConversionStats& to) {
   to.smoothing_seconds += from.smoothing_seconds;
 }
 
+/// Quads of the input stay as they are, and what comes out must not have an inverted element.
+void refuse_bad_quads(const SurfaceMesh& surface) {
+  for (const SurfacePart& part : surface.parts)
+    if (const BadQuad bad = find_bad_quad(part.patch); bad.quad != kNone)
+      throw SurfaceError(fmt::format("its quad {} is inverted or not convex {}; mend it, or cut it into triangles",
+                                     part.quad_tags[bad.quad], bad.where));
+}
+
 /// One run over the surfaces of a model.
 class Run {
  public:
@@ -149,7 +157,6 @@ void Run::visit(std::uint32_t entity) {
   report.triangles_out = report.triangles_in;
   report.quads_out = report.quads_in;
   if (report.triangles_in == 0) {
-    report.outcome = SurfaceOutcome::kAlreadyQuads;
     measure_quads(entity, report);
   } else {
     try {
@@ -168,6 +175,7 @@ void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
   StopWatch watch;
   ConvertedSurface converted;
   converted.surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
+  refuse_bad_quads(converted.surface);
   report_.read_seconds += watch.lap();
   ConversionStats stats;
   for (const SurfacePart& part : converted.surface.parts) {
@@ -201,16 +209,27 @@ void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
   report_.check_seconds += watch.lap();
 }
 
-void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) try {
-  const SurfaceMesh surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
+void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
+  report.outcome = SurfaceOutcome::kAlreadyQuads;
+  SurfaceMesh surface;
+  try {
+    surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
+  } catch (const SurfaceError&) {
+    return;  // it stays as it is in any case, and there are no figures for it
+  }
+  try {
+    refuse_bad_quads(surface);
+  } catch (const SurfaceError& error) {
+    report.outcome = SurfaceOutcome::kLeft;
+    report.reason = error.what();
+    return;
+  }
   QualityAccumulator quality;
   for (const SurfacePart& part : surface.parts) {
     for (QualityAccumulator* figures : {&quality, &total_})
       figures->add(part.patch.points, part.patch.triangles, part.patch.quads);
   }
   report.quality = quality.result();
-} catch (const SurfaceError&) {
-  // It stays as it is in any case, and there are no figures for it.
 }
 
 void Run::finish() {

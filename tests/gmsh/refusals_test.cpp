@@ -90,6 +90,18 @@ TEST_CASE("refused: a triangle with one node twice") {
   check_left(mixed, "uses node 27 at (11, 0, 0) twice");
 }
 
+TEST_CASE("refused: a quad of the input that is not convex") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(2, 0, 0), c = mixed.add(0, 2, 0), d = mixed.add(0.2, 0.2, 0);
+  mixed.elements.push_back(row<4>("3 2 0 2", {a, b, d, c}));
+  SUBCASE("among triangles") { mixed.bad(b, c, d); }
+  SUBCASE("among quads") {
+    const int e = mixed.add(3, 3, 0);
+    mixed.elements.push_back(row<4>("3 2 0 2", {b, e, c, d}));
+  }
+  check_left(mixed, "is inverted or not convex at (10.2, 0.2, 0)");
+}
+
 TEST_CASE("refused: a node at no place") {
   Mixed mixed;
   const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0);
