@@ -41,7 +41,11 @@ class CleanUp {
   }
 
   void improve(Index v) {
+    constexpr int kMostTries = 8;
+    int tries = 0;
+    if (mesh_.valence(v) > kMostValence) return;
     for (const Candidate& c : candidates_around(mesh_, score_, v, 1)) {
+      if (++tries > kMostTries) return;
       if (!attempt_change(c)) continue;
       ++changes_;
       for (Index u : nodes_)

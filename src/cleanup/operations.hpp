@@ -8,6 +8,10 @@
 
 namespace qmorph::cleanup {
 
+/// Where more edges than this meet, a fan of the input is all there is: a change of one edge does not help, and
+/// looking at every pair of edges would be quadratic.
+inline constexpr Index kMostValence = 16;
+
 enum class Action {
   close,         ///< merge origin(h) into the node opposite in face(h) [Canann98]
   turn_left,     ///< the edge of h, between two quads, moves on counter-clockwise

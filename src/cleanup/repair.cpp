@@ -39,8 +39,10 @@ class Repair {
 
  private:
   bool is_bad(Index f) const {
-    return mesh_.is_live_face(f) && mesh_.degree(f) == 4 &&
-           mesh_.smallest_sine(f) < relaxing_.target_quality;
+    if (!mesh_.is_live_face(f) || mesh_.degree(f) != 4) return false;
+    if (mesh_.smallest_sine(f) >= relaxing_.target_quality) return false;
+    const std::vector<Index> nodes = topology::nodes_of(mesh_, f);
+    return std::none_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh_.valence(v) > kMostValence; });
   }
 
   bool improve(Index f) {

@@ -216,19 +216,29 @@ std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
 /// that the time stays bounded by the size of the region.
 class Budget {
  public:
-  explicit Budget(const Mesh& mesh) : sweeps_(2000 + 10 * std::int64_t(mesh.face_slots())) {}
+  explicit Budget(const Mesh& mesh) : sweeps_(1500 + 5 * std::int64_t(mesh.face_slots())) {}
   bool is_spent() const { return sweeps_ <= 0; }
-  void spend(int sweeps) { sweeps_ -= sweeps; }
+  void spend(std::int64_t sweeps) { sweeps_ -= sweeps; }
 
  private:
   std::int64_t sweeps_;
 };
 
+/// What a sweep around a path costs, 1 for a short chain of ordinary elements: every node of a fan sees the whole fan.
+int weight(const Mesh& mesh, const std::vector<Index>& path) {
+  constexpr std::size_t kOrdinary = 200;
+  std::size_t work = 0;
+  for (Index h : path) {
+    const std::size_t edges = mesh.valence(mesh.origin(h)) + mesh.valence(mesh.target(h));
+    work += edges * edges / 4;
+  }
+  return int(1 + std::min<std::size_t>(work / kOrdinary, 1000000));
+}
+
 /// One triangle to one partner, or part of the way, in a transaction.
 bool try_path(Mesh& mesh, SmoothingOptions smoothing, Budget& budget, const std::vector<Index>& path,
               std::size_t crossings, const Effort& effort) {
   smoothing.untangling_sweeps *= effort.sweeps;
-  budget.spend(smoothing.untangling_sweeps);
   std::vector<Index> nodes;
   mesh.begin();
   bool done = true;
@@ -243,6 +253,7 @@ bool try_path(Mesh& mesh, SmoothingOptions smoothing, Budget& budget, const std:
     done = smoothing::smooth_near(mesh, smoothing, nodes, kRings);
   }
   done ? mesh.commit() : mesh.rollback();
+  if (!done) budget.spend(std::int64_t(smoothing.untangling_sweeps) * weight(mesh, path));
   return done;
 }
 

@@ -104,8 +104,9 @@ std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {
   return count;
 }
 
-/// Invariants I4 and I5, or no result. The stages keep them step by step; this is the last word.
-void require_valid(const kernel::Mesh& mesh, const Region& region, const Plane& plane) {
+/// What contradicts invariants I4 and I5, in words; empty if nothing does. The stages keep them step by step;
+/// this is the last word.
+std::string find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane) {
   std::size_t triangles = 0;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f)) continue;
@@ -113,47 +114,75 @@ void require_valid(const kernel::Mesh& mesh, const Region& region, const Plane& 
       return describe(plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f)))));
     };
     if (!mesh.is_valid_face(f))
-      throw SurfaceError("no valid element was found at " + where() +
-                         "; refine the triangles or the boundary there");
+      return "no valid element was found at " + where() +
+             "; refine the triangles or the boundary there";
     if (mesh.degree(f) == 3 && ++triangles > region.boundary_sides % 2)
-      throw SurfaceError("the triangle at " + where() +
-                         " could not be removed; refine the triangles or the boundary there");
+      return "the triangle at " + where() +
+             " could not be removed; refine the triangles or the boundary there";
   }
+  return {};
 }
+
+/// The stages, one after another.
+class Pipeline {
+ public:
+  Pipeline(const Options& options, ConversionStats& stats) : options_(options), stats_(stats) {}
+
+  void advance_front(kernel::Mesh& mesh) {
+    front::morph(mesh, options_.front, options_.check_each_step,
+                 [&](double share) { progress("front", share); });
+    stats_.front_quads += count_faces(mesh, 4);
+    stats_.leftover_triangles += count_faces(mesh, 3);
+    stats_.front_seconds += watch_.lap();
+  }
+
+  void finish(kernel::Mesh& mesh) {
+    elimination::eliminate_triangles(mesh, options_.smoothing);
+    stats_.elimination_seconds += watch_.lap();
+    progress("smoothing", 0);
+    SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
+    rough.iterations = std::min(rough.iterations, 3);
+    smoothing::smooth(mesh, rough);
+    stats_.smoothing_seconds += watch_.lap();
+    progress("cleanup", 0);
+    cleanup::clean_up(mesh, options_.smoothing);
+    stats_.cleanup_seconds += watch_.lap();
+    progress("smoothing", 0.5);
+    smoothing::smooth(mesh, options_.smoothing);
+    stats_.smoothing_seconds += watch_.lap();
+    cleanup::repair(mesh, options_.smoothing);
+    // Better shapes may have opened a way for triangles that found none before.
+    if (count_faces(mesh, 3) > 1) elimination::eliminate_triangles(mesh, options_.smoothing);
+    stats_.cleanup_seconds += watch_.lap();
+  }
+
+ private:
+  void progress(std::string_view stage, double share) const {
+    if (options_.progress) options_.progress(stage, share);
+  }
+
+  const Options& options_;
+  ConversionStats& stats_;
+  Stopwatch watch_;
+};
 
 kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options,
                             ConversionStats& stats) {
-  Stopwatch watch;
-  const auto progress = [&](std::string_view stage, double share) {
-    if (options.progress) options.progress(stage, share);
-  };
-  kernel::Mesh mesh(region.points, region.triangles, region.open);
-  for (Index v : region.fixed) mesh.set_fixed(v);
-  repair_input(mesh, plane);
-  front::morph(mesh, options.front, options.check_each_step,
-               [&](double share) { progress("front", share); });
-  stats.front_quads += count_faces(mesh, 4);
-  stats.leftover_triangles += count_faces(mesh, 3);
-  stats.front_seconds += watch.lap();
-  elimination::eliminate_triangles(mesh, options.smoothing);
-  stats.elimination_seconds += watch.lap();
-  progress("smoothing", 0);
-  SmoothingOptions rough = options.smoothing;  // good enough for cleanup to judge shapes
-  rough.iterations = std::min(rough.iterations, 3);
-  smoothing::smooth(mesh, rough);
-  stats.smoothing_seconds += watch.lap();
-  progress("cleanup", 0);
-  cleanup::clean_up(mesh, options.smoothing);
-  stats.cleanup_seconds += watch.lap();
-  progress("smoothing", 0.5);
-  smoothing::smooth(mesh, options.smoothing);
-  stats.smoothing_seconds += watch.lap();
-  cleanup::repair(mesh, options.smoothing);
-  // Better shapes may have opened a way for triangles that found none before.
-  if (count_faces(mesh, 3) > 1) elimination::eliminate_triangles(mesh, options.smoothing);
-  stats.cleanup_seconds += watch.lap();
-  require_valid(mesh, region, plane);
-  return mesh;
+  kernel::Mesh start(region.points, region.triangles, region.open);
+  for (Index v : region.fixed) start.set_fixed(v);
+  repair_input(start, plane);
+
+  Pipeline pipeline(options, stats);
+  kernel::Mesh mesh = start;
+  pipeline.advance_front(mesh);
+  pipeline.finish(mesh);
+  const std::string fault = find_fault(mesh, region, plane);
+  if (fault.empty()) return mesh;
+
+  // A front has no room in fans and needles. Pairing the triangles as they are often has.
+  pipeline.finish(start);
+  if (!find_fault(start, region, plane).empty()) throw SurfaceError(fault);
+  return start;
 }
 
 }  // namespace

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <regex>
 #include <sstream>
@@ -52,6 +55,115 @@ void check_complete(const std::string& path) {
   const std::size_t last = tail.rfind("\n$");
   const std::string word = last == std::string::npos ? "" : tail.substr(last + 1, 4);
   if (word != "$End" && word != "$END") throw InputError(fmt::format("{} ends too soon: it is not complete", path));
+}
+
+/// The number one, as four bytes, follows the line with the format in a binary file.
+void check_binary(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  while (std::getline(in, line) && line.rfind("$MeshFormat", 0) != 0) {
+  }
+  std::getline(in, line);
+  std::array<char, 4> one{};
+  in.read(one.data(), one.size());
+  if (one != std::array<char, 4>{1, 0, 0, 0} && one != std::array<char, 4>{0, 0, 0, 1})
+    throw InputError(fmt::format("{} says that it is binary and is not", path));
+}
+
+/// Numbers of a line, as many as there are up to N; the rest is 0.
+template <std::size_t N>
+std::array<long long, N> numbers(const std::string& line) {
+  std::array<long long, N> values{};
+  const char* at = line.c_str();
+  for (long long& value : values) {
+    char* end = nullptr;
+    value = std::strtoll(at, &end, 10);
+    if (end == at) break;
+    at = end;
+  }
+  return values;
+}
+
+/// One pass over the lines of an ASCII file of version 2 or 4. Gmsh takes as many elements as the file says that there
+/// are, without a word about more, about a section that is missing, or about tags that it cannot hold.
+class TextCheck {
+ public:
+  TextCheck(const std::string& path, double version) : path_(path), version_(version) {}
+  void run();
+
+ private:
+  void begin(const std::string& word, std::istream& in);
+  void take(const std::string& line);
+  void end() const;
+  void check_node_tag(long long tag) const {
+    if (tag > std::numeric_limits<int>::max())
+      throw InputError(fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh",
+                                   path_, tag, std::numeric_limits<int>::max()));
+  }
+
+  const std::string& path_;
+  double version_;
+  std::string section_;
+  long long stated_ = 0, expected_ = 0, lines_ = 0;
+  bool has_elements_ = false;
+};
+
+void TextCheck::run() {
+  std::ifstream in(path_, std::ios::binary);
+  for (std::string line; std::getline(in, line);) {
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (line.empty()) continue;
+    if (section_.empty() && line[0] == '$') {
+      begin(line.substr(1), in);
+    } else if (line[0] == '$' && line == "$End" + section_) {
+      end();
+      section_.clear();
+    } else {
+      take(line);
+    }
+  }
+  if (!section_.empty()) throw InputError(fmt::format("{} ends too soon: there is no $End{}", path_, section_));
+  if (!has_elements_) throw InputError(fmt::format("{} has no $Elements: it is not complete", path_));
+}
+
+void TextCheck::begin(const std::string& word, std::istream& in) {
+  section_ = word;
+  lines_ = 0;
+  if (word == "Elements") has_elements_ = true;
+  if (word != "Elements" && word != "Nodes") return;
+  std::string line;
+  std::getline(in, line);
+  const auto header = numbers<4>(line);
+  stated_ = version_ < 4 ? header[0] : header[1];
+  expected_ = version_ < 4 ? stated_ : header[0] + stated_;  // a line for each block
+  if (word == "Nodes" && version_ > 4) check_node_tag(header[3]);
+}
+
+void TextCheck::take(const std::string& line) {
+  ++lines_;
+  if (version_ >= 4) return;
+  if (section_ == "Nodes") check_node_tag(numbers<1>(line)[0]);
+  if (section_ != "Elements") return;
+  const auto element = numbers<5>(line);  // number, type, how many tags, group, entity
+  if (element[2] >= 2 && element[4] < 0)
+    throw InputError(fmt::format("{}: element {} has the elementary tag {}, and Gmsh cannot keep tags below 0", path_,
+                                 element[0], element[4]));
+}
+
+void TextCheck::end() const {
+  const bool counted = section_ == "Elements" || (section_ == "Nodes" && version_ < 4);
+  if (counted && (stated_ < 0 || lines_ > expected_))
+    throw InputError(fmt::format("{} contradicts itself: ${} says {}, and there are {}", path_, section_, stated_,
+                                 lines_ - (expected_ - stated_)));
+}
+
+/// Of what Gmsh would take without a word.
+void check_sections(const std::string& path, const MshHeader& header) {
+  check_complete(path);
+  if (header.binary)
+    check_binary(path);
+  else if (header.version >= 2 && (header.version < 3 || header.version >= 4))
+    TextCheck(path, header.version).run();
 }
 
 bool surfaces_have_elements() {
@@ -152,7 +264,7 @@ OpenedModel open_model(const std::string& path) {
   check_readable(path);
   OpenedModel opened;
   opened.msh = read_msh_header(path);
-  if (opened.msh.version != 0) check_complete(path);
+  if (opened.msh.version != 0) check_sections(path, opened.msh);
   set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it on reading (notes 1.5)
 
   auto start = std::chrono::steady_clock::now();
