@@ -162,7 +162,7 @@ void check_sections(const std::string& path, const MshHeader& header) {
   check_complete(path);
   if (header.binary)
     check_binary(path);
-  else if (header.version >= 2 && (header.version < 3 || header.version >= 4))
+  else if (header.version >= 2 && (header.version < 3 || (header.version >= 4 && header.version < 5)))
     TextCheck(path, header.version).run();
 }
 

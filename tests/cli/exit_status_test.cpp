@@ -109,6 +109,34 @@ TEST_CASE("status 2: a mesh that ends too soon, wherever it ends") {
   }
 }
 
+TEST_CASE("status 2: a mesh that contradicts itself, of which Gmsh would take a part") {
+  const std::string whole = grid_text();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+  };
+  const struct {
+    std::string text, message;
+  } kCases[] = {
+      {whole.substr(0, whole.find("$Elements")), "has no $Elements"},
+      {with("$Elements\n32\n", "$Elements\n30\n"), "$Elements says 30, and there are 32"},
+      {with("$Elements\n32\n", "$Elements\n-1\n"), "$Elements says -1, and there are 32"},
+      {with("2.2 0 8", "2.2 1 8"), "says that it is binary and is not"},
+      {with(" 2 2 0 1 ", " 2 2 0 -1 "), "has the elementary tag -1"},
+      {with("$Nodes\n25\n1 ", "$Nodes\n25\n2147483648 "), "node numbers up to 2147483648 leave no room"},
+      {"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 1 2147483648 2147483648\n2 1 0 1\n2147483648\n0 0 0\n"
+       "$EndNodes\n$Elements\n0 0 0 0\n$EndElements\n",
+       "leave no room"},
+  };
+  for (const auto& the_case : kCases) {
+    CAPTURE(the_case.message);
+    Scene scene("in.msh", the_case.text);
+    scene.expect(run_qmorph({scene.input, "-o", scene.output}), 2, the_case.message);
+  }
+}
+
 TEST_CASE("status 2: not there, a directory, not readable") {
   Scene scene("in.geo", kSquare);
   scene.expect(run_qmorph({scene.directory / "none.geo", "-o", scene.output}), 2, "none.geo: no such file");
