@@ -1,9 +1,11 @@
 #include "cli/run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -28,6 +30,32 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
+
+/// OpenCASCADE speaks on the standard output, which is ours. For the time of this object's life that is the standard
+/// error.
+class StdoutAsStderr {
+ public:
+  StdoutAsStderr() {
+    flush();
+    saved_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (saved_ >= 0) ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~StdoutAsStderr() {
+    flush();
+    if (saved_ < 0) return;
+    ::dup2(saved_, STDOUT_FILENO);
+    ::close(saved_);
+  }
+  StdoutAsStderr(const StdoutAsStderr&) = delete;
+  StdoutAsStderr& operator=(const StdoutAsStderr&) = delete;
+
+ private:
+  static void flush() {
+    std::cout.flush();
+    std::fflush(stdout);
+  }
+  int saved_ = -1;
+};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -110,6 +138,7 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
   const adapter::OutputPlan plan = check_places(request);
+  const StdoutAsStderr redirected;
   const adapter::Session session(request.gmsh_arguments);
   if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
   for (const std::string& name : request.option_names)

@@ -52,6 +52,14 @@ class TinyDisk {
 
 }  // namespace
 
+TEST_CASE("process: what OpenCASCADE says does not go to stdout") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.step", "ISO-10303-21;\nQUID;\n");
+  CHECK(call(directory, fmt::format("'{}' -o '{}'", directory / "in.step", directory / "out.msh")) == 2);
+  CHECK(read_file(directory / "stdout").empty());
+  CHECK(!read_file(directory / "stderr").empty());
+}
+
 TEST_CASE("process: exit statuses") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kSquare);
