@@ -97,8 +97,9 @@ class TextCheck {
   void end() const;
   void check_node_tag(long long tag) const {
     if (tag > std::numeric_limits<int>::max())
-      throw InputError(fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh",
-                                   path_, tag, std::numeric_limits<int>::max()));
+      throw InputError(
+          fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh", path_,
+                      tag, std::numeric_limits<int>::max()));
   }
 
   const std::string& path_;
