@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include "smoothing/untangle.hpp"
 
 namespace qmorph::cleanup {
 
 double worst_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   double worst = 1;
   for (Index v : nodes)
-    if (mesh.is_live_vertex(v)) worst = std::min(worst, smoothing::smallest_sine_around(mesh, v));
+    if (mesh.is_live_vertex(v)) worst = std::min(worst, mesh.smallest_sine_around(v));
   return worst;
 }
 

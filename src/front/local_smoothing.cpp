@@ -133,25 +133,15 @@ Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   return 0.5 * (by_length + by_angle);
 }
 
-double worst_sine_around(const Mesh& mesh, Index v) {
-  double worst = 1;
-  Index h = mesh.out(v);
-  do {
-    if (mesh.face(h) != kNone) worst = std::min(worst, mesh.smallest_sine(mesh.face(h)));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return worst;
-}
-
 /// Moves v towards `goal` as far as every element around stays (or becomes) valid.
 bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal) {
   const Vec2 start = mesh.point(v);
-  const double worst_before = worst_sine_around(mesh, v);
+  const double worst_before = mesh.smallest_sine_around(v);
   const double floor = std::min(worst_before, kWorstSine);
   double share = 1;
   for (int i = 0; i <= kHalvings; ++i, share /= 2) {
     mesh.set_point(v, start + share * (goal - start));
-    const double worst = worst_sine_around(mesh, v);
+    const double worst = mesh.smallest_sine_around(v);
     if (worst > kStraightSine && worst >= floor) return true;
   }
   mesh.set_point(v, start);

@@ -59,17 +59,8 @@ class Morph {
   }
 
   void note_sizes() {
-    for (Index v = 0; v < mesh_.vertex_slots(); ++v) {
-      if (!mesh_.is_live_vertex(v)) continue;
-      double sum = 0;
-      int edges = 0;
-      Index h = mesh_.out(v);
-      do {
-        sum += mesh_.length(h), ++edges;
-        h = mesh_.rotate_ccw(h);
-      } while (h != mesh_.out(v));
-      step_.size.set(v, sum / edges);
-    }
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
+      if (mesh_.is_live_vertex(v)) step_.size.set(v, mesh_.mean_edge(v));
   }
 
   void start() {

@@ -121,6 +121,27 @@ double Mesh::smallest_sine(Index f) const {
   return smallest < 0 ? -std::sqrt(-smallest) : std::sqrt(smallest);
 }
 
+double Mesh::smallest_sine_around(Index v) const {
+  double smallest = 1;
+  Index h = out(v);
+  do {
+    if (face(h) != kNone) smallest = std::min(smallest, smallest_sine(face(h)));
+    h = rotate_ccw(h);
+  } while (h != out(v));
+  return smallest;
+}
+
+double Mesh::mean_edge(Index v) const {
+  double sum = 0;
+  int edges = 0;
+  Index h = out(v);
+  do {
+    sum += length(h), ++edges;
+    h = rotate_ccw(h);
+  } while (h != out(v));
+  return sum / edges;
+}
+
 // --- edits ----------------------------------------------------------------------------------------------
 
 void Mesh::set_point(Index v, Vec2 p) { edit_vertex(v).point = p; }

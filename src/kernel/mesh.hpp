@@ -80,6 +80,10 @@ class Mesh {
   bool is_valid_star(Index v) const;
   /// Smallest sine of the face's corners, signed: its scaled Jacobian.
   double smallest_sine(Index f) const;
+  /// The smallest of those of the faces around v.
+  double smallest_sine_around(Index v) const;
+  /// Mean length of the edges at v.
+  double mean_edge(Index v) const;
 
   // --- edits ----------------------------------------------------------------------------------------
   // Points are taken by value: a new vertex may move the array that a reference points into.

@@ -10,18 +10,6 @@
 namespace qmorph::smoothing {
 namespace {
 
-/// Sum of a node's edge lengths over their number.
-double mean_edge(const kernel::Mesh& mesh, Index v) {
-  double sum = 0;
-  int edges = 0;
-  Index h = mesh.out(v);
-  do {
-    sum += mesh.length(h), ++edges;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return sum / edges;
-}
-
 /// Sines do not see edge lengths: a node may fall onto its neighbour although every corner looks good.
 bool is_on_neighbour(const kernel::Mesh& mesh, Index v) {
   constexpr double kLeastRatio = 1e-4;
@@ -56,9 +44,9 @@ bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     share_of_area = std::max(kLeastDelta, kFade * share_of_area);
     for (Index v : nodes) {
-      const double delta = share_of_area * std::pow(mean_edge(mesh, v), 2);
+      const double delta = share_of_area * std::pow(mesh.mean_edge(v), 2);
       const Energy energy = regularised_energy_around(mesh, v, delta);
-      const Vec2 start = mesh.point(v), step = direction(energy, mean_edge(mesh, v));
+      const Vec2 start = mesh.point(v), step = direction(energy, mesh.mean_edge(v));
       double share = 1;
       for (int i = 0; i < kHalvings; ++i, share /= 2) {
         const Vec2 p = start + share * step;
@@ -94,7 +82,7 @@ class Passes {
     }
     for (int pass = 0; pass < kRepairPasses; ++pass)
       for (Index v : nodes)
-        if (smallest_sine_around(mesh_, v) < options_.target_quality) raise_smallest_sine(mesh_, v);
+        if (mesh_.smallest_sine_around(v) < options_.target_quality) raise_smallest_sine(mesh_, v);
   }
 
  private:
@@ -172,7 +160,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     if (moved < options.move_tolerance) break;
   }
   for (Index v : around)
-    if (smallest_sine_around(mesh, v) < options.target_quality) raise_smallest_sine(mesh, v);
+    if (mesh.smallest_sine_around(v) < options.target_quality) raise_smallest_sine(mesh, v);
   return std::none_of(around.begin(), around.end(), [&](Index v) { return is_on_neighbour(mesh, v); }) &&
          std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); });
 }

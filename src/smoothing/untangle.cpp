@@ -108,16 +108,6 @@ double guarded_sine_around(const kernel::Mesh& mesh, Index v) {
 
 }  // namespace
 
-double smallest_sine_around(const kernel::Mesh& mesh, Index v) {
-  double least = 1;
-  Index h = mesh.out(v);
-  do {
-    if (mesh.face(h) != kNone) least = std::min(least, mesh.smallest_sine(mesh.face(h)));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return least;
-}
-
 bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
   if (!mesh.is_free(v)) return false;
   constexpr int kDirections = 8, kShrinkings = 6;

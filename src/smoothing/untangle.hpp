@@ -13,7 +13,5 @@ bool untangle_node(kernel::Mesh& mesh, Index v);
 /// Never makes the smallest sine smaller. Returns true if v moved.
 bool raise_smallest_sine(kernel::Mesh& mesh, Index v);
 
-/// Smallest corner sine of the faces around v.
-double smallest_sine_around(const kernel::Mesh& mesh, Index v);
 
 }  // namespace qmorph::smoothing

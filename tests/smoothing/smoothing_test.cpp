@@ -229,18 +229,18 @@ TEST_CASE("raise_smallest_sine never lowers the smallest sine, and raises a smal
     Mesh mesh = random_mixed_mesh(rng);
     for (const Index v : free_nodes(mesh)) {
       CAPTURE(v);
-      const double before = smallest_sine_around(mesh, v);
+      const double before = mesh.smallest_sine_around(v);
       const Vec2 start = mesh.point(v);
       const bool moved = raise_smallest_sine(mesh, v);
       REQUIRE(moved == (mesh.point(v) != start));
-      REQUIRE(smallest_sine_around(mesh, v) >= before);
-      raised += smallest_sine_around(mesh, v) > before + 0.01;
+      REQUIRE(mesh.smallest_sine_around(v) >= before);
+      raised += mesh.smallest_sine_around(v) > before + 0.01;
     }
   }
   CHECK(raised > 200);
   Mesh mesh = quad_grid(2, 2);
   mesh.set_point(4, {1.8, 1.7});
   CHECK(raise_smallest_sine(mesh, 4));
-  CHECK(smallest_sine_around(mesh, 4) > 0.9);
+  CHECK(mesh.smallest_sine_around(4) > 0.9);
   CHECK_FALSE(raise_smallest_sine(mesh, 0));
 }
