@@ -36,6 +36,7 @@ struct Options {
   FrontOptions front;
   SmoothingOptions smoothing;
   bool check_each_step = false;     ///< validate the mesh after every step: slow, for tests
+  bool measure_stages = false;      ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
   /// Called now and then with the stage's name and the share done (0 to 1). May be empty.
   std::function<void(std::string_view stage, double share)> progress;
 };

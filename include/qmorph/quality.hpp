@@ -14,12 +14,14 @@
 #include <span>
 #include <vector>
 
-#include "qmorph/patch.hpp"
+#include "qmorph/index.hpp"
 
 namespace qmorph {
 
+struct QuadMesh;
+
 /// Figures of one mesh, or of several meshes together (see `QualityAccumulator`). The shape figures are those of the
-/// quads; without a quad they keep the values of a square.
+/// quads, where nothing else is said; without a quad they keep the values of a square.
 struct Quality {
   std::size_t quads = 0;
   std::size_t triangles = 0;
@@ -29,10 +31,11 @@ struct Quality {
   double eta_min = 1, eta_mean = 1;
   double thesis_min = 1, thesis_mean = 1;
   double angle_min_deg = 90, angle_max_deg = 90;
-  std::size_t interior_nodes = 0;               ///< nodes on no edge that has one element only
-  std::size_t irregular_nodes = 0;              ///< interior nodes whose valence is not 4
-  std::map<int, std::size_t> valence;           ///< interior nodes by number of edges
-  std::map<int, std::size_t> boundary_valence;  ///< boundary nodes by `boundary_valence()`
+  double triangle_metric_min = 1, triangle_metric_mean = 1;  ///< of the triangles; 1 without one
+  std::size_t interior_nodes = 0;                            ///< nodes on no edge that has one element only
+  std::size_t irregular_nodes = 0;                           ///< interior nodes whose valence is not 4
+  std::map<int, std::size_t> valence;                        ///< interior nodes by number of edges
+  std::map<int, std::size_t> boundary_valence;               ///< boundary nodes by `boundary_valence()`
   double irregular_share() const { return interior_nodes ? double(irregular_nodes) / double(interior_nodes) : 0.0; }
 };
 
@@ -57,6 +60,9 @@ double eta(const QuadCorners& corners, const Eigen::Vector3d& normal);
 /// corner is under 6 degrees, less 2 for three, less 3 for four [thesis]. 1 for a square.
 double thesis_metric(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
+/// Metric of a triangle: 1 if its sides are equal, negative if it is inverted [thesis, eq. 2.1].
+double thesis_metric(const TriangleCorners& corners, const Eigen::Vector3d& normal);
+
 /// The valence that stands for a boundary node with `edges` edges and the interior angle `angle_deg`: two more
 /// up to 135 degrees, one more up to 225, else as it is [thesis, glossary].
 int boundary_valence(int edges, double angle_deg);
@@ -74,6 +80,9 @@ class QualityAccumulator {
   void add(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
            std::span<const std::array<Index, 4>> quads);
 
+  /// Adds the surfaces that another one has collected.
+  void add(const QualityAccumulator& other);
+
   Quality result() const;
 
  private:
@@ -83,7 +92,7 @@ class QualityAccumulator {
 
   Quality counts_;
   std::vector<double> scaled_jacobians_;
-  double eta_sum_ = 0, thesis_sum_ = 0;
+  double eta_sum_ = 0, thesis_sum_ = 0, triangle_sum_ = 0;
 };
 
 /// Figures of one surface.

@@ -100,17 +100,6 @@ std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
   return {triangles, quads};
 }
 
-void add_stats(const ConversionStats& from, ConversionStats& to) {
-  to.regions += from.regions;
-  to.odd_regions += from.odd_regions;
-  to.front_quads += from.front_quads;
-  to.leftover_triangles += from.leftover_triangles;
-  to.front_seconds += from.front_seconds;
-  to.elimination_seconds += from.elimination_seconds;
-  to.cleanup_seconds += from.cleanup_seconds;
-  to.smoothing_seconds += from.smoothing_seconds;
-}
-
 /// Quads of the input stay as they are, and what comes out must not have an inverted element.
 void refuse_bad_quads(const SurfaceMesh& surface) {
   for (const SurfacePart& part : surface.parts)
@@ -180,7 +169,7 @@ void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
   ConversionStats stats;
   for (const SurfacePart& part : converted.surface.parts) {
     converted.results.push_back(convert(part.patch, options_));
-    add_stats(converted.results.back().stats, stats);
+    stats.add(converted.results.back().stats);
   }
   report_.convert_seconds += watch.lap();
 

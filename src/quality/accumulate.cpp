@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
 #include "quality/valence.hpp"
 
@@ -94,7 +95,11 @@ void QualityAccumulator::add_elements(std::span<const Vector3d> points, std::spa
                                       std::span<const std::array<Index, 4>> quads, const ElementNormals& normals) {
   for (const auto& nodes : triangles) {
     const auto corners = corners_of(points, nodes);
-    if (!(scaled_jacobian(corners, normals.of(corners)) > 0)) ++counts_.inverted;
+    const Vector3d normal = normals.of(corners);
+    if (!(scaled_jacobian(corners, normal) > 0)) ++counts_.inverted;
+    const double metric = thesis_metric(corners, normal);
+    counts_.triangle_metric_min = std::min(counts_.triangle_metric_min, metric);
+    triangle_sum_ += metric;
   }
   scaled_jacobians_.reserve(scaled_jacobians_.size() + quads.size());
   for (const auto& nodes : quads) {
@@ -147,8 +152,32 @@ void QualityAccumulator::add(std::span<const Vector3d> points, std::span<const s
   add_elements(points, triangles, quads, normals);
 }
 
+void QualityAccumulator::add(const QualityAccumulator& other) {
+  const Quality& theirs = other.counts_;
+  const bool first = scaled_jacobians_.empty();
+  if (!other.scaled_jacobians_.empty()) {
+    counts_.angle_min_deg = first ? theirs.angle_min_deg : std::min(counts_.angle_min_deg, theirs.angle_min_deg);
+    counts_.angle_max_deg = first ? theirs.angle_max_deg : std::max(counts_.angle_max_deg, theirs.angle_max_deg);
+  }
+  counts_.quads += theirs.quads;
+  counts_.triangles += theirs.triangles;
+  counts_.inverted += theirs.inverted;
+  counts_.eta_min = std::min(counts_.eta_min, theirs.eta_min);
+  counts_.thesis_min = std::min(counts_.thesis_min, theirs.thesis_min);
+  counts_.triangle_metric_min = std::min(counts_.triangle_metric_min, theirs.triangle_metric_min);
+  counts_.interior_nodes += theirs.interior_nodes;
+  counts_.irregular_nodes += theirs.irregular_nodes;
+  for (const auto& [valence, count] : theirs.valence) counts_.valence[valence] += count;
+  for (const auto& [valence, count] : theirs.boundary_valence) counts_.boundary_valence[valence] += count;
+  scaled_jacobians_.insert(scaled_jacobians_.end(), other.scaled_jacobians_.begin(), other.scaled_jacobians_.end());
+  eta_sum_ += other.eta_sum_;
+  thesis_sum_ += other.thesis_sum_;
+  triangle_sum_ += other.triangle_sum_;
+}
+
 Quality QualityAccumulator::result() const {
   Quality quality = counts_;
+  if (quality.triangles) quality.triangle_metric_mean = triangle_sum_ / double(quality.triangles);
   if (scaled_jacobians_.empty()) return quality;
   const double count = double(scaled_jacobians_.size());
   double sum = 0;

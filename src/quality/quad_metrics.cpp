@@ -30,11 +30,16 @@ double smallest_sine(const std::array<Vector3d, N>& p, const Vector3d& normal) {
   return smallest;
 }
 
-/// Metric of triangle ABC, 1 if it is half of a square cut at its diagonal [thesis, eq. 2.1 and 3.7].
-double half_square_metric(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& normal) {
+/// Twice the area of triangle ABC over the sum of its sides' squares.
+double area_over_squares(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& normal) {
   const Vector3d ca = a - c, cb = b - c, ab = b - a;
   const double squares = ca.squaredNorm() + ab.squaredNorm() + cb.squaredNorm();
-  return 4 * ca.cross(cb).dot(normal) / std::max(squares, kTiny);
+  return ca.cross(cb).dot(normal) / std::max(squares, kTiny);
+}
+
+/// Metric of triangle ABC, 1 if it is half of a square cut at its diagonal [thesis, eq. 2.1 and 3.7].
+double half_square_metric(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& normal) {
+  return 4 * area_over_squares(a, b, c, normal);
 }
 
 }  // namespace
@@ -75,6 +80,10 @@ double thesis_metric(const QuadCorners& p, const Vector3d& normal) {
       if (angle < kThesisSmallAngleDeg) penalty = 1;
   }
   return *std::min_element(metrics.begin(), metrics.end()) - penalty;
+}
+
+double thesis_metric(const TriangleCorners& p, const Vector3d& normal) {
+  return 2 * std::numbers::sqrt3 * area_over_squares(p[0], p[1], p[2], normal);
 }
 
 int boundary_valence(int edges, double angle_deg) {

@@ -39,6 +39,26 @@ Json quality_json(const Quality& q) {
   return json;
 }
 
+/// A row of the table of stages. Shape figures are those of the quads; `triangle_metric` is that of the triangles.
+Json stage_json(const StageFigures& stage) {
+  const Quality q = stage.quality.result();
+  Json json = {{"stage", name_of(stage.stage)}, {"seconds", stage.seconds}, {"quads", q.quads},
+               {"triangles", q.triangles},      {"inverted", q.inverted},   {"irregular_share", q.irregular_share()}};
+  if (q.quads) {
+    json["scaled_jacobian"] = {
+        {"min", q.scaled_jacobian_min}, {"p1", q.scaled_jacobian_p1}, {"mean", q.scaled_jacobian_mean}};
+    json["thesis_metric"] = {{"min", q.thesis_min}, {"mean", q.thesis_mean}};
+  }
+  if (q.triangles) json["triangle_metric"] = {{"min", q.triangle_metric_min}, {"mean", q.triangle_metric_mean}};
+  return json;
+}
+
+Json stages_json(const std::vector<StageFigures>& stages) {
+  Json rows = Json::array();
+  for (const StageFigures& stage : stages) rows.push_back(stage_json(stage));
+  return rows;
+}
+
 Json engine_json(const ConversionStats& s) {
   return {{"regions", s.regions},
           {"odd_regions", s.odd_regions},
@@ -48,7 +68,16 @@ Json engine_json(const ConversionStats& s) {
            {{"front", s.front_seconds},
             {"elimination", s.elimination_seconds},
             {"cleanup", s.cleanup_seconds},
-            {"smoothing", s.smoothing_seconds}}}};
+            {"smoothing", s.smoothing_seconds}}},
+          {"stages", stages_json(s.stages)}};
+}
+
+/// Of the surfaces that were converted.
+ConversionStats sum_stages(const ModelReport& model) {
+  ConversionStats sum;
+  for (const SurfaceReport& surface : model.surfaces)
+    if (surface.outcome == SurfaceOutcome::kConverted) sum.add(surface.stats);
+  return sum;
 }
 
 const char* outcome_name(SurfaceOutcome outcome) {
@@ -94,6 +123,7 @@ std::string stats_json(const ModelReport& model, const RunFacts& facts) {
                      {"write", facts.write_seconds}, {"total", facts.total_seconds}};
   json["warnings"] = model.warnings;
   json["total"] = quality_json(model.total);
+  json["stages"] = stages_json(sum_stages(model).stages);
   json["surfaces"] = Json::array();
   for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

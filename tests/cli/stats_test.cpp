@@ -45,6 +45,25 @@ TEST_CASE("stats: the figures of each surface and of all, and what was asked for
     CHECK(total.contains(key));
 }
 
+TEST_CASE("stats: a table of the stages, for each surface and in total") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--stats", directory / "s.json"}).status == 0);
+  const json report = json::parse(read_file(directory / "s.json"));
+  const json& stages = report["stages"];
+  REQUIRE(stages.size() == 7);
+  CHECK(stages[0]["stage"] == "input");
+  CHECK(stages[6]["stage"] == "repair");
+  CHECK(stages[6]["quads"] == report["total"]["quads"]);
+  CHECK(stages[6]["scaled_jacobian"]["min"] == report["total"]["scaled_jacobian"]["min"]);
+  std::size_t triangles = 0;
+  for (const json& surface : report["surfaces"]) {
+    CHECK(surface["engine"]["stages"][0]["triangles"] == surface["before"]["triangles"]);
+    triangles += surface["before"]["triangles"].get<std::size_t>();
+  }
+  CHECK(stages[0]["triangles"] == triangles);
+}
+
 TEST_CASE("stats: a surface that was left says why") {
   const TemporaryDirectory directory;
   std::vector<std::string> elements = {"2 2 0 1 1 2 3", "2 2 0 1 1 2 4", "2 2 0 1 1 2 5"};

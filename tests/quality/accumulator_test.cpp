@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
 
 namespace {
@@ -126,4 +127,34 @@ TEST_CASE("accumulator: percentiles are numpy's, over all surfaces together") {
   CHECK(q.scaled_jacobian_below_03 == doctest::Approx(17.0 / 41));  // sin 17 = 0.292, sin 18 = 0.309
   CHECK(q.angle_min_deg == doctest::Approx(1));
   CHECK(q.angle_max_deg == doctest::Approx(179));
+}
+
+TEST_CASE("accumulators: two together are one that saw both meshes") {
+  const QuadMesh first = cut_squares();
+  QuadMesh second = first;
+  for (std::size_t i = 0; i < second.points.size(); ++i) second.points[i].x() += 0.3 * second.points[i].y();
+  second.triangles.clear();
+  qmorph::QualityAccumulator one, other, both;
+  one.add(first.points, first.triangles, first.quads, Vector3d::UnitZ());
+  other.add(second.points, second.triangles, second.quads, Vector3d::UnitZ());
+  for (const QuadMesh& mesh : {first, second}) both.add(mesh.points, mesh.triangles, mesh.quads, Vector3d::UnitZ());
+  one.add(other);
+  const qmorph::Quality sum = one.result(), expected = both.result();
+  CHECK(sum.quads == expected.quads);
+  CHECK(sum.triangles == expected.triangles);
+  CHECK(sum.valence == expected.valence);
+  CHECK(sum.boundary_valence == expected.boundary_valence);
+  CHECK(sum.scaled_jacobian_min == expected.scaled_jacobian_min);
+  CHECK(sum.scaled_jacobian_p1 == expected.scaled_jacobian_p1);
+  CHECK(sum.scaled_jacobian_mean == doctest::Approx(expected.scaled_jacobian_mean));
+  CHECK(sum.thesis_min == expected.thesis_min);
+  CHECK(sum.thesis_mean == doctest::Approx(expected.thesis_mean));
+  CHECK(sum.eta_mean == doctest::Approx(expected.eta_mean));
+  CHECK(sum.angle_min_deg == expected.angle_min_deg);
+  CHECK(sum.angle_max_deg == expected.angle_max_deg);
+  CHECK(sum.triangle_metric_min == expected.triangle_metric_min);
+
+  qmorph::QualityAccumulator nothing;
+  nothing.add(other);
+  CHECK(nothing.result().angle_min_deg == other.result().angle_min_deg);
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace qmorph {
+
+using Index = std::uint32_t;
+inline constexpr Index kNone = std::numeric_limits<Index>::max();
+
+}  // namespace qmorph

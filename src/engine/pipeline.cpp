@@ -1,0 +1,83 @@
+#include "engine/pipeline.hpp"
+
+#include <algorithm>
+
+#include "cleanup/clean_up.hpp"
+#include "cleanup/repair.hpp"
+#include "elimination/eliminate.hpp"
+#include "front/morph.hpp"
+#include "smoothing/smooth.hpp"
+
+namespace qmorph {
+
+using Clock = std::chrono::steady_clock;
+
+Pipeline::Pipeline(const Options& options, ConversionStats& stats, Snapshots* snapshots, const kernel::Mesh& start)
+    : options_(options), stats_(stats), snapshots_(snapshots), start_(Clock::now()) {
+  if (options.measure_stages && stats_.stages.empty())
+    for (std::size_t i = 0; i < kStages; ++i) stats_.stages.push_back({Stage(i), 0, {}});
+  double nothing = 0;
+  end_stage(Stage::input, start, nothing);
+}
+
+void Pipeline::progress(std::string_view stage, double share) const {
+  if (options_.progress) options_.progress(stage, share);
+}
+
+void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds) {
+  const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
+  seconds += passed;
+  if (snapshots_) {
+    (*snapshots_)[std::size_t(stage)] = mesh;
+    stats_.stages[std::size_t(stage)].seconds += passed;
+  }
+  start_ = Clock::now();
+}
+
+void Pipeline::advance_front(kernel::Mesh& mesh) {
+  front::morph(mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", share); });
+  stats_.front_quads += count_faces(mesh, 4);
+  stats_.leftover_triangles += count_faces(mesh, 3);
+  end_stage(Stage::front, mesh, stats_.front_seconds);
+}
+
+void Pipeline::finish(kernel::Mesh& mesh) {
+  elimination::eliminate_triangles(mesh, options_.smoothing);
+  end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
+  progress("smoothing", 0);
+  SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
+  rough.iterations = std::min(rough.iterations, 3);
+  smoothing::smooth(mesh, rough);
+  end_stage(Stage::smoothing, mesh, stats_.smoothing_seconds);
+  progress("cleanup", 0);
+  cleanup::clean_up(mesh, options_.smoothing);
+  end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
+  progress("smoothing", 0.5);
+  smoothing::smooth(mesh, options_.smoothing);
+  end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
+  cleanup::repair(mesh, options_.smoothing);
+  // Better shapes may have opened a way for triangles that found none before.
+  if (count_faces(mesh, 3) > 1) elimination::eliminate_triangles(mesh, options_.smoothing);
+  end_stage(Stage::repair, mesh, stats_.cleanup_seconds);
+}
+
+std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {
+  std::size_t count = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f) count += mesh.is_live_face(f) && mesh.degree(f) == degree;
+  return count;
+}
+
+std::string find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane) {
+  std::size_t triangles = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    const auto where = [&] { return describe(plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f))))); };
+    if (!mesh.is_valid_face(f))
+      return "no valid element was found at " + where() + "; refine the triangles or the boundary there";
+    if (mesh.degree(f) == 3 && ++triangles > region.boundary_sides % 2)
+      return "the triangle at " + where() + " could not be removed; refine the triangles or the boundary there";
+  }
+  return {};
+}
+
+}  // namespace qmorph

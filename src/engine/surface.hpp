@@ -1,0 +1,32 @@
+#pragma once
+/// What convert() and improve() have in common: a surface is laid into its plane, its regions are worked on one by one,
+/// and what they have become is put together.
+
+#include <functional>
+#include <vector>
+
+#include "engine/pipeline.hpp"
+#include "engine/regions.hpp"
+#include "qmorph/options.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph {
+
+/// A surface in its plane, cut into regions. `patch` must outlive it.
+struct Surface {
+  /// \throws SurfaceError as convert() does
+  explicit Surface(const Patch& patch);
+
+  const Patch& patch;
+  Plane plane;
+  std::vector<Vec2> plane_points;
+  std::vector<Region> regions;
+};
+
+/// Makes a region into quads. `snapshots` may be null.
+using Work = std::function<kernel::Mesh(const Region& region, ConversionStats& stats, Snapshots* snapshots)>;
+
+/// Works on all regions and puts the results together, with the figures of each stage if `measure_stages`.
+QuadMesh work_on_regions(const Surface& surface, bool measure_stages, const Work& work);
+
+}  // namespace qmorph
