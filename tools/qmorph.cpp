@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <string>
@@ -22,6 +23,7 @@ void say_that_gmsh_ended_it() {
 
 int main(int argc, char** argv) {
   std::atexit(say_that_gmsh_ended_it);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that is not allowed to grow becomes an error, which cleans up
   running = true;
   const int status = qmorph::cli::run({argv + 1, argv + argc}, std::cout, std::cerr);
   running = false;

@@ -67,8 +67,8 @@ Exit status:
   2  the input cannot be opened or meshed; nothing has been written
   3  converted in part: OUT has been written, and the surfaces that are named on stderr are in it as
      they were
-  4  nothing to convert: all surfaces are quads already (OUT is IN, unchanged), or there are no
-     surfaces (nothing has been written)
+  4  nothing to convert: all surfaces are quads already (OUT has been written, with the mesh of IN
+     as it was), or there are no surfaces (nothing has been written)
   5  OUT cannot be written; a previous file of that name is as it was
 )";
 
@@ -107,6 +107,14 @@ void check_gmsh_values(const Row& row, const std::vector<std::string>& values) {
     refuse("an algorithm of Gmsh (front2d, del2d, meshadapt, delquad, pack, ...)");
 }
 
+double msh_version(const std::string& text) {
+  constexpr std::array kVersions = {1.0, 2.0, 2.1, 2.2, 3.0, 4.0, 4.1};
+  const double version = std::stod(text);
+  if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end())
+    throw UsageError(fmt::format("Mesh.MshFileVersion: there is no version '{}' (1, 2.2, 3, 4, 4.1)", text));
+  return version;
+}
+
 void note_gmsh_option(const Row& row, const std::vector<std::string>& values, Request& request) {
   check_gmsh_values(row, values);
   request.gmsh_arguments.push_back(fmt::format("-{}", row.name));
@@ -116,7 +124,7 @@ void note_gmsh_option(const Row& row, const std::vector<std::string>& values, Re
   if (values[0].find('.') != std::string::npos && row.values == 2) request.option_names.push_back(values[0]);
   if (row.name != "setnumber") return;
   if (values[0] == "Mesh.Algorithm") request.algorithm_chosen = true;
-  if (values[0] == "Mesh.MshFileVersion") request.msh_version = std::stod(values[1]);
+  if (values[0] == "Mesh.MshFileVersion") request.msh_version = msh_version(values[1]);
   if (values[0] == "Mesh.Binary") request.binary = std::stod(values[1]) != 0;
 }
 
@@ -161,6 +169,14 @@ std::string with_our_spelling(std::string message) {
   return message;
 }
 
+int surface_tag(const std::string& text) {
+  int tag = 0;
+  if (!CLI::detail::lexical_cast(text, tag) || tag < 0)
+    throw UsageError(fmt::format(
+        "--surfaces: '{}' is not a tag; give the numbers of surfaces, as 3,7 (not of groups, nor names)", text));
+  return tag;
+}
+
 }  // namespace
 
 Request parse(const std::vector<std::string>& arguments) {
@@ -179,7 +195,8 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_flag("--2", ignored_flag);
   app.add_option("--nt", threads)->check(CLI::NonNegativeNumber);
   app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
-  app.add_option("--surfaces", request.surfaces)->delimiter(',')->allow_extra_args(false);
+  std::vector<std::string> surfaces;
+  app.add_option("--surfaces", surfaces)->delimiter(',')->allow_extra_args(false);
   app.add_option("--stats", request.stats);
   app.add_flag("--help", request.help);
   app.add_flag("--version", request.version);
@@ -192,6 +209,7 @@ Request parse(const std::vector<std::string>& arguments) {
   if (request.help || request.version) return request;
   if (request.input.empty()) throw UsageError("which file? (qmorph IN [-o OUT])");
   if (binary) request.binary = true;
+  for (const std::string& tag : surfaces) request.surfaces.push_back(surface_tag(tag));
   return request;
 }
 

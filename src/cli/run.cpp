@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "cli/progress.hpp"
@@ -87,19 +88,22 @@ int status_of(const ModelReport& model) {
   return model.count(SurfaceOutcome::kConverted) ? kAllConverted : kNothingToConvert;
 }
 
-void write(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
-           const ModelReport& model) {
+/// Writes the mesh to a file beside its place. \return false if the output is the input and stays what it is
+bool write(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
+           const ModelReport& model, adapter::StagedFile& file) {
   const bool converted = model.count(SurfaceOutcome::kConverted) != 0;
   const bool as_it_was = !converted && opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
                          !request.msh_version && !request.binary;
+  if (as_it_was && is_same_file(request.input, plan.path)) return false;
   if (as_it_was)
-    adapter::copy_input(request.input, plan);
+    adapter::copy_input(request.input, plan, file);
   else
-    adapter::write_model(plan, opened, {request.msh_version, request.binary});
+    adapter::write_model(plan, opened, {request.msh_version, request.binary}, file);
+  return true;
 }
 
 /// What the caller must know in any case, in one line.
-void print_outcome(const ModelReport& model, std::ostream& err) {
+void print_outcome(const ModelReport& model, const std::string& output, std::ostream& err) {
   std::string left;
   for (const SurfaceReport& surface : model.surfaces)
     if (surface.outcome == SurfaceOutcome::kLeft) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
@@ -107,7 +111,7 @@ void print_outcome(const ModelReport& model, std::ostream& err) {
     err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::kLeft),
                        model.surfaces.size(), left);
   else if (model.count(SurfaceOutcome::kConverted) == 0)
-    err << "qmorph: nothing to convert: all surfaces are quads already\n";
+    err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has the mesh as it was\n";
 }
 
 /// Gmsh may say one thing about each of a million nodes.
@@ -120,8 +124,8 @@ void print_once(std::string_view prefix, const std::vector<std::string>& lines, 
   }
 }
 
-void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model, double seconds,
-                   std::ostream& err) {
+void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,
+                   const report::RunFacts& facts, std::ostream& err) {
   if (request.verbosity >= 2) print_once("Gmsh: ", opened.warnings, err);
   if (request.verbosity >= 1) {
     for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
@@ -130,9 +134,21 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
       for (const std::string& warning : surface.warnings)
         err << "warning: surface " << surface.tag << ": " << warning << '\n';
     }
-    err << report::total_line(model, seconds) << '\n';
+    err << report::total_line(model, facts.output, facts.total_seconds) << '\n';
   }
-  print_outcome(model, err);
+  print_outcome(model, facts.output, err);
+}
+
+/// The mesh and the figures, or neither. \param mesh null if it is in its place already
+void commit(const Request& request, adapter::StagedFile* mesh, const std::string& figures) {
+  std::optional<adapter::StagedFile> stats;
+  if (!request.stats.empty()) {
+    stats.emplace(request.stats);
+    stats->write_text(figures);
+    stats->prepare();
+  }
+  if (mesh) mesh->commit();
+  if (stats) stats->commit();
 }
 
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
@@ -140,6 +156,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   const adapter::Session session(request.gmsh_arguments);
+  adapter::check_format(plan);
   if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
   for (const std::string& name : request.option_names)
     if (!adapter::option_exists(name) && request.verbosity >= 1)
@@ -158,14 +175,19 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
 
   const Clock::time_point write_start = Clock::now();
   if (!opened.had_mesh) adapter::renumber();
-  write(request, plan, opened, model);
+  if (request.verbosity >= 1) {
+    const std::string lost = adapter::describe_unwritten(plan, opened);
+    if (!lost.empty()) err << "warning: " << lost << '\n';
+  }
+  adapter::StagedFile file = adapter::stage(plan);
+  const bool written = write(request, plan, opened, model, file);
   report::RunFacts facts{request.input, plan.path, arguments, status_of(model)};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
-  if (!request.stats.empty()) adapter::write_text(request.stats, report::stats_json(model, facts));
-  print_summary(request, opened, model, facts.total_seconds, err);
+  commit(request, written ? &file : nullptr, report::stats_json(model, facts));
+  print_summary(request, opened, model, facts, err);
   return facts.exit_status;
 }
 

@@ -1,45 +1,24 @@
 #include "gmsh/meshing.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Gmsh's number of "simple": the only pairing that a script can switch off for each surface (notes 4.1).
 constexpr double kSimplePairing = 0;
 /// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly (notes 8.3).
 constexpr double kBlossomPairing = 1;
-
-/// A file for as long as it is needed.
-class ScratchFile {
- public:
-  explicit ScratchFile(const std::string& extension)
-      : path_(fs::temp_directory_path() / fmt::format("qmorph-{}-{}{}", ::getpid(), ++count_, extension)) {}
-  ~ScratchFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  std::string path() const { return path_.string(); }
-
- private:
-  static inline int count_ = 0;
-  fs::path path_;
-};
 
 std::vector<int> all_surfaces() {
   ::gmsh::vectorpair surfaces;
@@ -107,7 +86,9 @@ void check_every_surface_has_elements() {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
     ::gmsh::model::mesh::getElements(types, tags, nodes, 2, tag);
-    if (types.empty() && area_or_one(tag) > 0) throw InputError(fmt::format("Gmsh made no element on surface {}", tag));
+    // The surface that Compound Surface makes hands its elements to those that it is made of.
+    if (types.empty() && entity_type(2, tag) != "Discrete surface" && area_or_one(tag) > 0)
+      throw InputError(fmt::format("Gmsh made no element on surface {}", tag));
   }
 }
 

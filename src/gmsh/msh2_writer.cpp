@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "gmsh/compat.hpp"
@@ -97,43 +98,91 @@ void write_nodes(Output& out, const ModelMesh& mesh) {
   out.text("{}$EndNodes\n", out.binary ? "\n" : "");
 }
 
-int group_of(const EntityMesh& entity) {
-  std::vector<int> groups;
-  ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
-  return groups.empty() ? 0 : groups.front();
+/// An entity as version 2 sees it.
+struct Place {
+  int elementary = 0;
+  std::vector<int> groups;      ///< at least one: 0 is none
+  std::vector<int> partitions;  ///< empty in a mesh that has none
+};
+
+/// \return nothing for what Gmsh made between the partitions: the file does not have it
+std::optional<Place> find_place(const EntityMesh& entity, const Msh2Origin& origin) {
+  Place place;
+  int parent_dim = -1, parent_tag = -1;
+  ::gmsh::model::getParent(entity.dim, entity.tag, parent_dim, parent_tag);
+  ::gmsh::model::getPartitions(entity.dim, entity.tag, place.partitions);
+  const bool is_part = !place.partitions.empty();
+  if (is_part && parent_dim != entity.dim) return std::nullopt;
+  place.elementary = is_part ? parent_tag : entity.tag;
+  const auto renamed = origin.elementary.find({entity.dim, place.elementary});
+  ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, place.groups);
+  if (place.groups.empty() && is_part) ::gmsh::model::getPhysicalGroupsForEntity(parent_dim, parent_tag, place.groups);
+  if (renamed != origin.elementary.end()) place.elementary = renamed->second;
+  if (place.groups.empty()) place.groups.push_back(0);
+  std::sort(place.groups.begin(), place.groups.end());
+  return place;
 }
 
-void write_block(Output& out, const EntityMesh& entity, const ElementBlock& block) {
-  const int group = group_of(entity);
-  if (out.binary)
-    for (const std::size_t number : {static_cast<std::size_t>(block.type), block.tags.size(), std::size_t{2}})
-      out.raw(int32(number));
-  for (std::size_t e = 0; e < block.tags.size(); ++e) {
-    if (out.binary) {
-      out.raw(int32(block.tags[e]));
-      out.raw(std::int32_t{group});
-      out.raw(std::int32_t{entity.tag});
-    } else {
-      out.text("{} {} 2 {} {}", block.tags[e], block.type, group, entity.tag);
-    }
-    for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
-      const std::size_t node = block.nodes[e * block.nodes_per_element + k];
-      if (out.binary)
-        out.raw(int32(node));
-      else
-        out.text(" {}", node);
-    }
-    if (!out.binary) out.text("\n");
-  }
+/// Writes elements one by one. An element in several groups is written once for each.
+class ElementWriter {
+ public:
+  ElementWriter(Output& out, const ModelMesh& mesh, const Msh2Origin& origin);
+  void write();
+
+ private:
+  void write_block(const ElementBlock& block, const Place& place, int group);
+  std::size_t number(std::size_t element, const Place& place, int group);
+
+  Output& out_;
+  const ModelMesh& mesh_;
+  const Msh2Origin& origin_;
+  std::size_t next_ = 0;
+};
+
+ElementWriter::ElementWriter(Output& out, const ModelMesh& mesh, const Msh2Origin& origin)
+    : out_(out), mesh_(mesh), origin_(origin), next_(mesh.max_element_tag) {
+  for (const auto& [element, copies] : origin.copies)
+    for (const auto& [group, number] : copies) next_ = std::max(next_, number);
 }
 
-void write_elements(Output& out, const ModelMesh& mesh) {
+void ElementWriter::write() {
   std::size_t count = 0;
-  for (const EntityMesh& entity : mesh.entities) count += entity.element_count();
-  out.text("$Elements\n{}\n", count);
-  for (const EntityMesh& entity : mesh.entities)
-    for (const ElementBlock& block : entity.blocks) write_block(out, entity, block);
-  out.text("{}$EndElements\n", out.binary ? "\n" : "");
+  for (const EntityMesh& entity : mesh_.entities)
+    if (const auto place = find_place(entity, origin_)) count += entity.element_count() * place->groups.size();
+  out_.text("$Elements\n{}\n", count);
+  for (const EntityMesh& entity : mesh_.entities)
+    if (const auto place = find_place(entity, origin_))
+      for (int group : place->groups)
+        for (const ElementBlock& block : entity.blocks) write_block(block, *place, group);
+  out_.text("{}$EndElements\n", out_.binary ? "\n" : "");
+}
+
+std::size_t ElementWriter::number(std::size_t element, const Place& place, int group) {
+  if (group == place.groups.front()) return element;
+  if (const auto copies = origin_.copies.find(element); copies != origin_.copies.end())
+    if (const auto copy = copies->second.find(group); copy != copies->second.end()) return copy->second;
+  return ++next_;
+}
+
+void ElementWriter::write_block(const ElementBlock& block, const Place& place, int group) {
+  std::vector<std::int32_t> tags = {group, place.elementary};
+  if (!place.partitions.empty()) tags.push_back(static_cast<std::int32_t>(place.partitions.size()));
+  tags.insert(tags.end(), place.partitions.begin(), place.partitions.end());
+  if (out_.binary)
+    for (const std::size_t word : {static_cast<std::size_t>(block.type), block.tags.size(), tags.size()})
+      out_.raw(int32(word));
+  for (std::size_t e = 0; e < block.tags.size(); ++e) {
+    const std::size_t tag = number(block.tags[e], place, group);
+    const std::size_t* nodes = block.nodes.data() + e * block.nodes_per_element;
+    if (out_.binary) {
+      out_.raw(int32(tag));
+      for (std::int32_t word : tags) out_.raw(word);
+      for (std::size_t k = 0; k < block.nodes_per_element; ++k) out_.raw(int32(nodes[k]));
+    } else {
+      out_.text("{} {} {} {} {}\n", tag, block.type, tags.size(), fmt::join(tags, " "),
+                fmt::join(nodes, nodes + block.nodes_per_element, " "));
+    }
+  }
 }
 
 struct PeriodicLink {
@@ -172,13 +221,13 @@ void write_periodic(Output& out, const ModelMesh& mesh) {
 
 }  // namespace
 
-void write_msh2(const std::string& path, bool binary) {
+void write_msh2(const std::string& path, bool binary, const Msh2Origin& origin) {
   const ModelMesh mesh = read_model_mesh();
   Output out(path, binary);
   write_header(out);
   write_group_names(out);
   write_nodes(out, mesh);
-  write_elements(out, mesh);
+  ElementWriter(out, mesh, origin).write();
   write_periodic(out, mesh);
   out.close(path);
 }

@@ -4,21 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "gmsh/msh2_groups.hpp"
+#include "gmsh/msh_file.hpp"
+
 namespace qmorph::adapter {
 
 /// Gmsh's 2D algorithm where the user has no wish: Frontal-Delaunay. Over the geometries of geo/ the mean scaled Jacobian
 /// of the quads is 0.970 to 0.973 and the irregular share 5.5 to 6.4 % with 6, 5, 1, 8 and 9; 6 and 5 are the
 /// fastest, and 9 (pack), best by a hair on average, has the worst element by far (0.06 against 0.39).
 inline constexpr int kDefaultAlgorithm = 6;
-
-/// How a .msh file is written. `version` is 0 for other files.
-struct MshHeader {
-  double version = 0;
-  bool binary = false;
-};
-
-/// Looks into the first lines of a file. \throws InputError if it is named .msh and is none.
-MshHeader read_msh_header(const std::string& path);
 
 /// \throws InputError if there is no such file, or it is a directory, empty, or not readable.
 void check_readable(const std::string& path);
@@ -27,6 +21,7 @@ void check_readable(const std::string& path);
 struct OpenedModel {
   MshHeader msh;          ///< version 0: not a .msh file
   bool had_mesh = false;  ///< the surfaces' elements come from the file, not from Gmsh's mesher
+  Msh2Origin origin;      ///< of a file of MSH 2 that had to be taken apart
   std::vector<std::string> warnings;
   double open_seconds = 0, mesh_seconds = 0;
 };

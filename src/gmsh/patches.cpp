@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "gmsh/orientation.hpp"
@@ -10,6 +11,9 @@
 
 namespace qmorph::adapter {
 namespace {
+
+/// Areas of areas are still numbers below this.
+constexpr double kLargestCoordinate = 1e75;
 
 std::uint64_t edge_key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
@@ -40,6 +44,9 @@ std::vector<std::array<Index, N>> read_corners(const ModelMesh& mesh, const Elem
     if (!mesh.points[row].allFinite())
       throw SurfaceError(
           fmt::format("{} is nowhere: its coordinates are not finite numbers", describe_node(mesh, row)));
+    if (mesh.points[row].cwiseAbs().maxCoeff() > kLargestCoordinate)
+      throw SurfaceError(fmt::format("{} is too far away to compute with; scale the mesh (Mesh.ScalingFactor)",
+                                     describe_node(mesh, row)));
     elements[i / N][i % N] = row;
   }
   return elements;
@@ -242,6 +249,40 @@ FixedEdges::FixedEdges(const ModelMesh& mesh, const NodeUse& use) {
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   touched_.assign(mesh.tags.size(), false);
   for (std::uint64_t key : keys_) touched_[key >> 32] = touched_[key & 0xffffffff] = true;
+}
+
+std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use) {
+  struct Corners {
+    std::array<Index, 4> rows;  // sorted; a triangle has kNone for the fourth
+    std::uint32_t entity;
+    bool operator<(const Corners& other) const { return std::tie(rows, entity) < std::tie(other.rows, other.entity); }
+  };
+  std::vector<Corners> shared;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    if (mesh.entities[e].dim != 2) continue;
+    for (const ElementBlock& block : mesh.entities[e].blocks) {
+      if (block.type != kTriangle3 && block.type != kQuad4) continue;
+      for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
+        Corners corners{{kNone, kNone, kNone, kNone}, e};
+        bool common = true;
+        for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
+          corners.rows[k] = mesh.rows.find(block.nodes[i + k]);
+          common = common && corners.rows[k] != kNone && use.several[corners.rows[k]];
+        }
+        std::sort(corners.rows.begin(), corners.rows.end());
+        if (common) shared.push_back(corners);
+      }
+    }
+  }
+  std::sort(shared.begin(), shared.end());
+  std::map<std::uint32_t, CommonElement> found;
+  for (std::size_t i = 1; i < shared.size(); ++i) {
+    const Corners &a = shared[i - 1], &b = shared[i];
+    if (a.rows != b.rows || a.entity == b.entity) continue;
+    found.try_emplace(a.entity, CommonElement{b.entity, a.rows[0]});
+    found.try_emplace(b.entity, CommonElement{a.entity, a.rows[0]});
+  }
+  return found;
 }
 
 bool FixedEdges::contains(Index row_a, Index row_b) const {

@@ -2,6 +2,7 @@
 /// From the mesh of a model to what the engine takes.
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,15 @@ class FixedEdges {
   std::vector<std::uint64_t> keys_;  ///< sorted
   std::vector<bool> touched_;        ///< rows that such an edge ends at: most edges of a mesh need no search
 };
+
+/// An element that another surface has as well.
+struct CommonElement {
+  std::uint32_t other = 0;  ///< index into ModelMesh::entities
+  Index row = kNone;        ///< one of its nodes
+};
+
+/// Surfaces that have an element in common with another: neither could be changed and still fit the other.
+std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use);
 
 /// Reads one surface: parts, constraints, fixed nodes. Triangles that are oriented against the others
 /// of their part are turned, with a warning.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <utility>
 
 #include "gmsh/check.hpp"
@@ -115,6 +116,7 @@ class Run {
       : options_(options), report_(report), model_(read_model(report)), fixed_edges_(model_.mesh, model_.use) {
     refuse_ghost_cells(model_.mesh);
     periodic_ = find_periodic(model_.mesh);
+    common_ = find_common_elements(model_.mesh, model_.use);
     local_.assign(model_.mesh.tags.size(), kNone);
   }
 
@@ -131,6 +133,7 @@ class Run {
   ReadModel model_;
   FixedEdges fixed_edges_;
   std::vector<int> periodic_;
+  std::map<std::uint32_t, CommonElement> common_;
   std::vector<Index> local_;
   std::vector<ConvertedSurface> converted_;
   QualityAccumulator total_;
@@ -161,6 +164,10 @@ void Run::visit(std::uint32_t entity) {
 void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
   if (std::count(periodic_.begin(), periodic_.end(), report.tag))
     throw SurfaceError("it is periodic with another surface, and periodic pairs cannot be converted yet");
+  if (const auto common = common_.find(entity); common != common_.end())
+    throw SurfaceError(fmt::format("surface {} has the same element at {}; leave one of the two out",
+                                   model_.mesh.entities[common->second.other].tag,
+                                   describe_node(model_.mesh, common->second.row)));
   StopWatch watch;
   ConvertedSurface converted;
   converted.surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);

@@ -25,12 +25,18 @@ constexpr unsigned long kLeastRoom = 8192;
   throw OutputError(fmt::format("cannot write {}: {}", target, reason));
 }
 
-/// A link stays a link: what it points to is replaced.
+/// A link stays a link: what it points to is replaced, or made where there is nothing yet.
 fs::path resolve(const std::string& target) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
   std::error_code error;
-  const fs::path absolute = fs::absolute(target, error);
-  const fs::path resolved = fs::weakly_canonical(absolute, error);
-  return error ? absolute : resolved;
+  fs::path path = fs::absolute(target, error);
+  for (int i = 0; fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    if (i == kMostLinks) fail(target, "its links lead back to themselves");
+    path = path.parent_path() / fs::read_symlink(path, error);
+    if (error) fail(target, error.message());
+  }
+  const fs::path resolved = fs::weakly_canonical(path, error);
+  return error ? path : resolved;
 }
 
 bool sync_to_disk(const std::string& path) {
@@ -69,24 +75,29 @@ StagedFile::~StagedFile() {
   if (!path_.empty()) fs::remove(path_, ignored);
 }
 
-void StagedFile::commit() {
+void StagedFile::prepare() {
+  if (prepared_) return;
   std::error_code error;
   if (!fs::exists(path_, error) || fs::file_size(path_, error) == 0) fail(target_, "nothing has been written");
   if (!sync_to_disk(path_)) fail(target_, std::strerror(errno));
   if (disk_is_full(path_)) fail(target_, "no space left on the device");
   if (fs::exists(target_, error)) fs::permissions(path_, fs::status(target_).permissions(), error);
+  prepared_ = true;
+}
+
+void StagedFile::commit() {
+  prepare();
+  std::error_code error;
   fs::rename(path_, target_, error);
   if (error) fail(target_, error.message());
   path_.clear();
 }
 
-void write_text(const std::string& target, const std::string& text) {
-  StagedFile file(target);
-  std::ofstream out(file.path(), std::ios::binary);
+void StagedFile::write_text(const std::string& text) {
+  std::ofstream out(path_, std::ios::binary);
   out << text;
   out.close();
-  if (!out) fail(target, std::strerror(errno));
-  file.commit();
+  if (!out) fail(target_, std::strerror(errno));
 }
 
 }  // namespace qmorph::adapter

@@ -17,14 +17,17 @@ class StagedFile {
 
   /// Where to write to.
   const std::string& path() const { return path_; }
+  /// For small files. \throws OutputError
+  void write_text(const std::string& text);
+  /// Does all that can fail for want of room or rights: of several files, prepare all before committing the first.
+  /// \throws OutputError
+  void prepare();
   /// Makes the file durable and gives it the target's name. \throws OutputError
   void commit();
 
  private:
   std::string target_, path_;
+  bool prepared_ = false;
 };
-
-/// Writes a small text file that way. \throws OutputError
-void write_text(const std::string& target, const std::string& text);
 
 }  // namespace qmorph::adapter

@@ -84,6 +84,8 @@ double choose_version(const OutputFormat& format, const OpenedModel& opened, con
   if (format.msh_version > 0) return format.msh_version;
   if (wish.version) return *wish.version;
   const double option = get_option("Mesh.MshFileVersion");  // a script may have set it
+  if (option < 1 || option > kDefaultMshVersion)
+    throw OutputError(fmt::format("Mesh.MshFileVersion = {:g}: there is no such version of MSH", option));
   if (option != kDefaultMshVersion) return option;
   if (opened.msh.version == 0) return kDefaultMshVersion;
   return opened.msh.version >= 2 && opened.msh.version < 3 ? 2.2 : opened.msh.version;
@@ -132,18 +134,8 @@ bool has_groups() {
   return !groups.empty();
 }
 
-bool has_partitions() {
-  ::gmsh::vectorpair entities;
-  ::gmsh::model::getEntities(entities);
-  return std::any_of(entities.begin(), entities.end(), [](const auto& entity) {
-    return entity_type(entity.first, entity.second).rfind("Partition", 0) == 0;
-  });
-}
-
-/// Our own writer keeps the tags; it knows nothing of partitions.
-bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
-  return version == 2.2 && opened.msh.version >= 2 && opened.msh.version < 3 && !has_partitions();
-}
+/// Our own writer keeps the tags, and the partitions.
+bool keeps_tags_of_msh2(double version, const OpenedModel& opened) { return version == 2.2 && opened.msh.is_2(); }
 
 void write_msh(const std::string& path, double version, bool everything) {
   const ScopedOption version_option("Mesh.MshFileVersion", version);
@@ -189,6 +181,20 @@ OutputPlan plan_output(const std::string& input, const std::string& output, cons
   return plan;
 }
 
+StagedFile stage(const OutputPlan& plan) {
+  return StagedFile(plan.path, plan.format.is_msh ? ".msh" : plan.format.extension);
+}
+
+void check_format(const OutputPlan& plan) {
+  const StagedFile probe = stage(plan);
+  const StageLog log = run_logged([&] { ::gmsh::write(probe.path()); });
+  for (const std::string& error : log.errors)
+    if (error.find("nknown") != std::string::npos || error.find("ompiled without") != std::string::npos ||
+        error.find("must be compiled with") != std::string::npos)
+      throw OutputError(
+          fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.path, plan.format.name, error));
+}
+
 void renumber() {
   run_logged([] {
     ::gmsh::model::mesh::renumberNodes();
@@ -196,15 +202,24 @@ void renumber() {
   });
 }
 
-void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
-  StagedFile file(plan.path, plan.format.is_msh ? ".msh" : plan.format.extension);
+std::string describe_unwritten(const OutputPlan& plan, const OpenedModel& opened) {
+  if (opened.msh.version == 0 || plan.format.is_msh || !has_groups() || get_option("Mesh.SaveAll") != 0) return {};
+  std::string surfaces;
+  for (const auto& [dim, tag] : ungrouped_entities())
+    if (dim == 2) surfaces += fmt::format("{}{}", surfaces.empty() ? "" : ", ", tag);
+  if (surfaces.empty()) return {};
+  return fmt::format("surfaces in no physical group are not written to {}: {} (-setnumber Mesh.SaveAll 1 writes all)",
+                     plan.path, surfaces);
+}
+
+void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file) {
   const bool keep_encoding = plan.format.is_msh && opened.msh.version != 0;
   const bool binary = wish.binary.value_or(keep_encoding ? opened.msh.binary : get_option("Mesh.Binary") != 0);
   const ScopedOption binary_option("Mesh.Binary", binary);
   const double version = plan.format.is_msh ? choose_version(plan.format, opened, wish) : 0;
   const StageLog log = run_logged([&] {
     if (keeps_tags_of_msh2(version, opened))
-      write_msh2(file.path(), binary);
+      write_msh2(file.path(), binary, opened.origin);
     else if (plan.format.is_msh)
       write_msh(file.path(), version, opened.msh.version != 0);
     else
@@ -212,16 +227,12 @@ void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWis
   });
   if (!log.errors.empty()) throw OutputError(fmt::format("cannot write {}: {}", plan.path, first_errors(log)));
   if (plan.format.is_msh) check_msh_end(file.path(), plan.path);
-  file.commit();
 }
 
-void copy_input(const std::string& input, const OutputPlan& plan) {
+void copy_input(const std::string& input, const OutputPlan& plan, StagedFile& file) {
   std::error_code error;
-  if (fs::equivalent(input, plan.path, error)) return;
-  StagedFile file(plan.path);
   fs::copy_file(input, file.path(), fs::copy_options::overwrite_existing, error);
   if (error) throw OutputError(fmt::format("cannot write {}: {}", plan.path, error.message()));
-  file.commit();
 }
 
 }  // namespace qmorph::adapter

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gmsh/open.hpp"
+#include "gmsh/staged_file.hpp"
 
 namespace qmorph::adapter {
 
@@ -35,15 +36,27 @@ struct MshWish {
   std::optional<bool> binary;
 };
 
+/// The file that will become the output once it is committed.
+StagedFile stage(const OutputPlan& plan);
+
+/// \pre the model is empty: nothing has been opened yet
+/// \throws OutputError if this build of Gmsh cannot write the format at all
+void check_format(const OutputPlan& plan);
+
 /// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
 void renumber();
 
+/// A mesh that is there already is expected to come out whole, and formats other than MSH have only what is in groups
+/// if there are any. \return what to say about it, or an empty string
+std::string describe_unwritten(const OutputPlan& plan, const OpenedModel& opened);
+
 /// Writes the current model, whole or not at all. What came from a .msh file goes out in the same version and
 /// encoding unless something else is asked for, and all of it, whether in physical groups or not.
+/// \param file of `stage`; still to be committed
 /// \throws OutputError; a previous file is as it was then
-void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
+void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file);
 
 /// Copies the input to the output: nothing was to be done, so nothing can be lost. \throws OutputError
-void copy_input(const std::string& input, const OutputPlan& plan);
+void copy_input(const std::string& input, const OutputPlan& plan, StagedFile& file);
 
 }  // namespace qmorph::adapter

@@ -5,10 +5,14 @@
 namespace qmorph::report {
 namespace {
 
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string elements(std::size_t triangles, std::size_t quads) {
-  if (triangles == 0) return fmt::format("{} quads", quads);
-  if (quads == 0) return fmt::format("{} triangles", triangles);
-  return fmt::format("{} quads and {} triangle{}", quads, triangles, triangles == 1 ? "" : "s");
+  if (triangles == 0) return counted(quads, "quad");
+  if (quads == 0) return counted(triangles, "triangle");
+  return counted(quads, "quad") + " and " + counted(triangles, "triangle");
 }
 
 std::string figures(const Quality& quality) {
@@ -25,7 +29,8 @@ std::string surface_line(const SurfaceReport& surface) {
   const std::string before = elements(surface.triangles_in, surface.quads_in);
   switch (surface.outcome) {
     case SurfaceOutcome::kLeft:
-      return line + fmt::format(": {} left as they were: {}", before, surface.reason);
+      return line + fmt::format(": {} left as {}: {}", before,
+                                surface.triangles_in + surface.quads_in == 1 ? "it was" : "they were", surface.reason);
     case SurfaceOutcome::kAlreadyQuads:
       return line + fmt::format(": {} already; {}", before, figures(surface.quality));
     case SurfaceOutcome::kConverted:
@@ -35,7 +40,7 @@ std::string surface_line(const SurfaceReport& surface) {
                             figures(surface.quality));
 }
 
-std::string total_line(const ModelReport& model, double seconds) {
+std::string total_line(const ModelReport& model, const std::string& output, double seconds) {
   std::size_t triangles_in = 0, quads_in = 0, triangles_out = 0, quads_out = 0;
   for (const SurfaceReport& surface : model.surfaces) {
     triangles_in += surface.triangles_in;
@@ -43,8 +48,8 @@ std::string total_line(const ModelReport& model, double seconds) {
     triangles_out += surface.triangles_out;
     quads_out += surface.quads_out;
   }
-  return fmt::format("total: {} -> {}; {}; {:.2f} s", elements(triangles_in, quads_in),
-                     elements(triangles_out, quads_out), figures(model.total), seconds);
+  return fmt::format("total: {} -> {}; {}; {:.2f} s; {}", elements(triangles_in, quads_in),
+                     elements(triangles_out, quads_out), figures(model.total), seconds, output);
 }
 
 }  // namespace qmorph::report

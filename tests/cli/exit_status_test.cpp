@@ -124,6 +124,8 @@ TEST_CASE("status 2: a mesh that contradicts itself, of which Gmsh would take a 
       {with("$Elements\n32\n", "$Elements\n30\n"), "$Elements says 30, and there are 32"},
       {with("$Elements\n32\n", "$Elements\n-1\n"), "$Elements says -1, and there are 32"},
       {with("2.2 0 8", "2.2 1 8"), "says that it is binary and is not"},
+      {with("\n2 2 2 0 1 ", "\n1 2 2 0 1 "), "has 32 elements, and only 31 numbers for them"},
+      {with("\n1 2 2 0 1 ", "\n1 999 2 0 1 "), "elements of type 999"},
       {with(" 2 2 0 1 ", " 2 2 0 -1 "), "has the elementary tag -1"},
       {with("$Nodes\n25\n1 ", "$Nodes\n25\n2147483648 "), "node numbers up to 2147483648 leave no room"},
       {"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 1 2147483648 2147483648\n2 1 0 1\n2147483648\n0 0 0\n"
@@ -164,6 +166,31 @@ TEST_CASE("status 5: places and formats that cannot be") {
   scene.expect(run_qmorph({scene.input, "-format", "msh", "-o", "/"}), 5, "it is a directory");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", "/no/such/directory/s.json"}), 5,
                "cannot write /no/such/directory/s.json");
+}
+
+TEST_CASE("status 5: a format that this Gmsh has not is said before anything is opened") {
+  Scene scene("in.geo", "Error(\"opened\");\n");
+  scene.expect(run_qmorph({scene.input, "-o", scene.output, "-format", "med"}), 5, "this Gmsh has no format med");
+}
+
+TEST_CASE("status 5: links that lead back to themselves") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  std::filesystem::create_symlink("b.msh", directory / "a.msh");
+  std::filesystem::create_symlink("a.msh", directory / "b.msh");
+  const Result result = run_qmorph({directory / "in.geo", "-o", directory / "a.msh"});
+  CHECK(result.status == 5);
+  CHECK(mentions(result.err, "its links lead back to themselves"));
+  CHECK(std::filesystem::is_symlink(directory / "a.msh"));
+}
+
+TEST_CASE("a link to a file that is not there yet makes the file") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  std::filesystem::create_symlink("real.msh", directory / "link.msh");
+  CHECK(run_qmorph({directory / "in.geo", "-o", directory / "link.msh"}).status == 0);
+  CHECK(std::filesystem::is_symlink(directory / "link.msh"));
+  CHECK(directory.files() == std::vector<std::string>{"in.geo", "link.msh", "real.msh"});
 }
 
 TEST_CASE("status 5: a directory where nobody may write") {

@@ -74,6 +74,42 @@ TEST_CASE("process: exit statuses") {
   CHECK(call(directory, "") == 1);
 }
 
+TEST_CASE("process: where files may not grow, nothing is left behind") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kFineSquare);
+  const std::string out = directory / "out.msh";
+  write_file(out, "earlier");
+  const std::string command =
+      fmt::format("ulimit -f 2; '{}' '{}' -o '{}' 2>/dev/null", QMORPH_COMMAND, directory / "in.geo", out);
+  const int status = std::system(command.c_str());
+  CHECK(WEXITSTATUS(status) == 5);
+  CHECK(directory.files() == std::vector<std::string>{"in.geo", "out.msh"});
+  CHECK(read_file(out) == "earlier");
+}
+
+TEST_CASE("process: no directory for temporary files") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  const std::string command =
+      fmt::format("TMPDIR=/no/such '{}' '{}' 2>'{}'", QMORPH_COMMAND, directory / "in.geo", directory / "stderr");
+  const int status = std::system(command.c_str());
+  CHECK(WEXITSTATUS(status) == 2);
+  CHECK(read_file(directory / "stderr").find("set TMPDIR") != std::string::npos);
+}
+
+TEST_CASE("process: figures that cannot be written leave the earlier mesh") {
+  const TemporaryDirectory directory;
+  const TinyDisk disk(directory / "disk");
+  if (!disk.mounted()) return;
+  write_file(directory / "disk/filler", std::string(15000, 'x'));
+  write_file(directory / "in.geo", kSquare);
+  const std::string out = directory / "out.msh";
+  write_file(out, "earlier");
+  CHECK(call(directory,
+             fmt::format("'{}' -o '{}' --stats '{}'", directory / "in.geo", out, directory / "disk/s.json")) == 5);
+  CHECK(read_file(out) == "earlier");
+}
+
 TEST_CASE("process: a script that says Exit is not a success") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", std::string(kSquare) + "Exit;\n");

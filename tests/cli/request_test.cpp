@@ -74,10 +74,11 @@ TEST_CASE("request: what makes no sense is named") {
       {{"a.geo", "-clmax", "nan"}, "is not a positive number"},
       {{"a.geo", "-clmax", "0.1mm"}, "is not a positive number"},
       {{"a.geo", "-setnumber", "x", "y"}, "-setnumber: 'y' is not a number"},
+      {{"a.geo", "-setnumber", "Mesh.MshFileVersion", "7"}, "there is no version '7'"},
       {{"a.geo", "-algo", "magic"}, "-algo: 'magic' is not an algorithm"},
       {{"a.geo", "-v", "loud"}, "-v"},
       {{"a.geo", "-nt", "-1"}, "-nt"},
-      {{"a.geo", "--surfaces", "x"}, "--surfaces"},
+      {{"a.geo", "--surfaces", "steel"}, "--surfaces: 'steel' is not a tag; give the numbers of surfaces"},
   };
   for (const auto& the_case : kCases) {
     CAPTURE(the_case.words);

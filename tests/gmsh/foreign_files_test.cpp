@@ -282,3 +282,16 @@ TEST_CASE("foreign: new nodes take free numbers where there are none above") {
   CHECK(after.mesh.max_element_tag == 2147483647);
   CHECK(element_counts(after, 1).second > 2);
 }
+
+TEST_CASE("foreign: a name with a quote inside is not cut") {
+  const TemporaryDirectory directory;
+  const Grid grid;
+  std::vector<std::string> elements;
+  for (const auto& triangle : grid.triangles()) elements.push_back(row("2 2 3 1", triangle));
+  const std::string names = "$PhysicalNames\n1\n2 3 \"2\" pipe\"\n$EndPhysicalNames\n";
+  write_file(directory / "in.msh", msh22(grid.nodes(), elements, names));
+  for (const char* format : {"msh22", "msh41"}) {
+    CHECK(run_qmorph({directory / "in.msh", "-format", format, "-o", directory / "out.msh"}).status == 0);
+    CHECK(read_file(directory / "out.msh").find(names) != std::string::npos);
+  }
+}

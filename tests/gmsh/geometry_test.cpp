@@ -176,3 +176,19 @@ TEST_CASE("geometry: nothing with surfaces in it") {
   CHECK(mentions(result.err, "has no surface with elements"));
   CHECK(directory.files() == std::vector<std::string>{"in.geo"});
 }
+
+TEST_CASE("geometry: surfaces that a Compound Surface joins are converted one by one") {
+  const TemporaryDirectory directory;
+  write_file(
+      directory / "in.geo",
+      "Point(1)={0,0,0,.2}; Point(2)={1,0,0,.2}; Point(3)={1,1,0,.2}; Point(4)={0,1,0,.2};\n"
+      "Point(5)={2,0,0,.2}; Point(6)={2,1,0,.2};\n"
+      "Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Line(5)={2,5}; Line(6)={5,6}; Line(7)={6,3};\n"
+      "Curve Loop(1)={1,2,3,4}; Plane Surface(1)={1}; Curve Loop(2)={5,6,7,-2}; Plane Surface(2)={2};\n"
+      "Compound Surface{1,2};\n");
+  const Result result = run_qmorph({directory / "in.geo"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  const Snapshot after = read_snapshot(directory / "in.msh");
+  for (int surface : {1, 2}) CHECK(element_counts(after, surface).first == 0);
+}

@@ -111,7 +111,7 @@ TEST_CASE("refused: a node at no place") {
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CAPTURE(result.err);
   CHECK(result.status == 3);
-  CHECK(mentions(result.err, "surface 2: 1 triangles left as they were: node 28 at (10, nan, 0) is nowhere"));
+  CHECK(mentions(result.err, "surface 2: 1 triangle left as it was: node 28 at (10, nan, 0) is nowhere"));
 }
 
 TEST_CASE("refused: a surface that is not planar") {
@@ -162,17 +162,23 @@ TEST_CASE("refused: periodic surfaces; their neighbours are converted and the pa
   CHECK(difference(read_snapshot(directory / "in.msh"), read_snapshot(directory / "out.msh"), {3, 4, 5, 6}) == "");
 }
 
-TEST_CASE("refused: elements of one entity in several groups of MSH 2") {
+TEST_CASE("refused: two surfaces with the same elements") {
   const TemporaryDirectory directory;
   const Grid grid;
   std::vector<std::string> elements;
-  for (const auto& triangle : grid.triangles())
-    elements.push_back(row(elements.size() % 2 ? "2 2 8 1" : "2 2 9 1", triangle));
+  for (const char* surface : {"2 2 0 1", "2 2 0 2"})
+    for (const auto& triangle : grid.triangles()) elements.push_back(row(surface, triangle));
   write_file(directory / "in.msh", msh22(grid.nodes(), elements));
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
-  CHECK(result.status == 2);
-  CHECK(mentions(result.err, "elements with elementary tag 1 (dimension 2) are in 2 physical groups"));
-  CHECK(directory.files() == std::vector<std::string>{"in.msh"});
+  CHECK(result.status == 3);
+  CHECK(mentions(result.err, "surface 2: 32 triangles left as they were: surface 1 has the same element at node"));
+}
+
+TEST_CASE("refused: coordinates whose squares are no numbers") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1e160, 0, 0);
+  mixed.bad(a, b, mixed.add(0, 1e160, 0));
+  check_left(mixed, "node 27 at (1e+160, 0, 0) is too far away to compute with");
 }
 
 TEST_CASE("refused: two nodes with one tag, an element without its node") {

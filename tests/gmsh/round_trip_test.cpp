@@ -167,6 +167,34 @@ TEST_CASE("round trip: a partitioned mesh keeps its partitions") {
   CHECK(partitions(in) == partitions(out));
 }
 
+TEST_CASE("round trip: a partitioned mesh of MSH 2.2 keeps its partitions") {
+  for (const bool binary : {false, true}) {
+    CAPTURE(binary);
+    const TemporaryDirectory directory;
+    make_msh(directory / "in.msh", 2.2, binary, [] {
+      build_two_squares();
+      ::gmsh::model::removePhysicalGroups({});
+      ::gmsh::model::mesh::partition(3);
+    });
+    CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh"}).status == 0);
+    const auto partitions = [&](const std::string& name) {
+      const qmorph::adapter::Session session;
+      qmorph::adapter::run_logged([&] { ::gmsh::open(directory / name); });
+      std::set<std::vector<int>> found;
+      ::gmsh::vectorpair entities;
+      ::gmsh::model::getEntities(entities);
+      for (const auto& [dim, tag] : entities) {
+        std::vector<int> numbers;
+        ::gmsh::model::getPartitions(dim, tag, numbers);
+        if (dim == 2) found.insert(numbers);
+      }
+      return found;
+    };
+    CHECK(partitions("in.msh").size() == 4);  // three, and the surfaces that they are parts of
+    CHECK(partitions("in.msh") == partitions("out.msh"));
+  }
+}
+
 TEST_CASE("round trip: quads that are there already stay, with their tags") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, [] {
