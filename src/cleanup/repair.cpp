@@ -13,6 +13,8 @@ constexpr int kPasses = 3;
 constexpr int kLeastGain = -6;
 constexpr int kMostCandidates = 16;
 constexpr int kRings = 2;
+/// Of the changes that are kept, nearly all are valid at once; none was seen that took more than eleven sweeps.
+constexpr int kUntanglingSweeps = 12;
 
 /// A repair has to pay: a slightly better corner is not worth irregular nodes.
 bool is_clearly_better(double before, double after) {
@@ -22,16 +24,16 @@ bool is_clearly_better(double before, double after) {
 
 class Repair {
  public:
-  Repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing)
-      : mesh_(mesh), score_(mesh), relaxing_(smoothing) {
+  Repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing) : mesh_(mesh), score_(mesh), relaxing_(smoothing) {
     relaxing_.iterations = std::max(relaxing_.iterations, 12);
+    relaxing_.untangling_sweeps = kUntanglingSweeps;
   }
 
   std::size_t run() {
     for (int pass = 0; pass < kPasses; ++pass) {
       const std::size_t before = changes_;
       for (Index f = 0; f < mesh_.face_slots(); ++f)
-        if (is_bad(f)) changes_ += improve(f);
+        if (is_bad(f) && !has_failed(f)) try_face(f);
       if (changes_ == before) break;
     }
     return changes_;
@@ -43,6 +45,29 @@ class Repair {
     if (mesh_.smallest_sine(f) >= relaxing_.target_quality) return false;
     const std::vector<Index> nodes = topology::nodes_of(mesh_, f);
     return std::none_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh_.valence(v) > kMostValence; });
+  }
+
+  bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
+
+  void try_face(Index f) {
+    if (improve(f)) {
+      ++changes_;
+      for (Index v : nodes_) forgive_around(v);
+    } else {
+      failed_.resize(mesh_.face_slots(), false);
+      failed_[f] = true;
+    }
+  }
+
+  /// Where something has changed, what failed may succeed.
+  void forgive_around(Index v) {
+    if (!mesh_.is_live_vertex(v)) return;
+    Index h = mesh_.out(v);
+    do {
+      const Index f = mesh_.face(h);
+      if (f != kNone && f < failed_.size()) failed_[f] = false;
+      h = mesh_.rotate_ccw(h);
+    } while (h != mesh_.out(v));
   }
 
   bool improve(Index f) {
@@ -87,13 +112,12 @@ class Repair {
   Score score_;
   SmoothingOptions relaxing_;
   std::vector<Index> nodes_;
+  std::vector<bool> failed_;  ///< faces around which nothing has changed since nothing was found for them
   std::size_t changes_ = 0;
 };
 
 }  // namespace
 
-std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
-  return Repair(mesh, smoothing).run();
-}
+std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing) { return Repair(mesh, smoothing).run(); }
 
 }  // namespace qmorph::cleanup

@@ -23,6 +23,12 @@ bool is_on_neighbour(const kernel::Mesh& mesh, Index v) {
   return shortest < kLeastRatio * longest;
 }
 
+/// Where very many edges meet, a ring of neighbours is no neighbourhood: with it, work on a fan would be quadratic.
+bool is_hub(const kernel::Mesh& mesh, Index v) {
+  constexpr Index kMostValence = 24;
+  return mesh.valence(v) > kMostValence;
+}
+
 /// Newton's direction where the energy is convex, else downhill by a fraction of the edge length.
 Vec2 direction(const Energy& energy, double edge) {
   const double determinant = energy.xx * energy.yy - energy.xy * energy.xy;
@@ -40,6 +46,7 @@ Vec2 direction(const Energy& energy, double edge) {
 bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   constexpr int kHalvings = 6;
   constexpr double kFirstDelta = 0.5, kFade = 0.8, kLeastDelta = 1e-8;
+  if (has_immovable_fault(mesh, nodes)) return false;
   double share_of_area = kFirstDelta;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     share_of_area = std::max(kLeastDelta, kFade * share_of_area);
@@ -110,8 +117,11 @@ double relax_node(kernel::Mesh& mesh, Index v) {
   const double edge = mesh.length(mesh.out(v));
   const Energy energy = energy_around(mesh, v);
   if (!energy.finite) {
+    // The largest smallest area is not always the largest smallest sine: what was valid has to stay so.
     const Vec2 before = mesh.point(v);
+    const bool was_valid = mesh.is_valid_star(v);
     untangle_node(mesh, v);
+    if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
     return (mesh.point(v) - before).norm() / edge;
   }
   const Vec2 start = mesh.point(v), step = direction(energy, edge);
@@ -143,6 +153,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     if (ring == rings) break;
     const std::size_t count = around.size();
     for (std::size_t i = 0; i < count; ++i) {
+      if (is_hub(mesh, around[i])) continue;
       Index h = mesh.out(around[i]);
       do {
         around.push_back(mesh.target(h));

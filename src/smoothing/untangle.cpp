@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/predicates.hpp"
+
 namespace qmorph::smoothing {
 namespace {
 
@@ -120,6 +122,7 @@ bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
   } while (h != mesh.out(v));
 
   const Vec2 start = mesh.point(v);
+  const bool was_valid = mesh.is_valid_star(v);
   Vec2 best = start;
   double best_sine = guarded_sine_around(mesh, v);
   double step = kFirstStep * shortest;
@@ -137,7 +140,26 @@ bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
     if (best == centre) step /= 2, ++shrinking;
   }
   mesh.set_point(v, best);
+  // The guard on lengths may have paid for a rise with a corner's sine.
+  if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, best = start);
   return best != start;
+}
+
+bool has_immovable_fault(const kernel::Mesh& mesh, std::span<const Index> free_nodes) {
+  const auto moves = [&](Index v) { return std::binary_search(free_nodes.begin(), free_nodes.end(), v); };
+  const auto is_bad = [&](Index h) {
+    const Index before = mesh.origin(mesh.prev(h)), at = mesh.origin(h), after = mesh.target(h);
+    return !moves(before) && !moves(at) && !moves(after) &&
+           !is_convex_corner(mesh.point(before), mesh.point(at), mesh.point(after), kStraightSine);
+  };
+  for (Index v : free_nodes) {
+    Index h = mesh.out(v);
+    do {  // the corner that v is no part of: opposite in a quad, none in a triangle
+      if (mesh.is_quad(mesh.face(h)) && is_bad(mesh.next(mesh.next(h)))) return true;
+      h = mesh.rotate_ccw(h);
+    } while (h != mesh.out(v));
+  }
+  return false;
 }
 
 }  // namespace qmorph::smoothing

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "kernel/mesh.hpp"
 
 namespace qmorph::smoothing {
@@ -10,8 +12,11 @@ namespace qmorph::smoothing {
 bool untangle_node(kernel::Mesh& mesh, Index v);
 
 /// Moves v to raise the smallest corner sine around it (its neighbours' corners included); compass search.
-/// Never makes the smallest sine smaller. Returns true if v moved.
+/// Never makes an element invalid. Returns true if v moved.
 bool raise_smallest_sine(kernel::Mesh& mesh, Index v);
 
+/// A face around one of the `free_nodes` has a corner that is not convex and whose three nodes are all elsewhere: no
+/// movement of `free_nodes` makes it valid. `free_nodes` is sorted.
+bool has_immovable_fault(const kernel::Mesh& mesh, std::span<const Index> free_nodes);
 
 }  // namespace qmorph::smoothing

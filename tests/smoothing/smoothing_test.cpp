@@ -41,6 +41,18 @@ double worst_sine(const Mesh& mesh) {
   return worst;
 }
 
+/// Moves v in a random direction as far as the elements around stay valid.
+void push_to_the_limit(Mesh& mesh, Index v, Rng& rng) {
+  const Vec2 start = mesh.point(v), direction(rng.between(-3, 3), rng.between(-3, 3));
+  double good = 0, bad = 1;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (good + bad) / 2;
+    mesh.set_point(v, start + middle * direction);
+    (mesh.is_valid_star(v) ? good : bad) = middle;
+  }
+  mesh.set_point(v, start + good * direction);
+}
+
 }  // namespace
 
 TEST_CASE("energy: it is 1 for each corner of a square, and not finite where a corner is not convex") {
@@ -243,4 +255,37 @@ TEST_CASE("raise_smallest_sine never lowers the smallest sine, and raises a smal
   CHECK(raise_smallest_sine(mesh, 4));
   CHECK(mesh.smallest_sine_around(4) > 0.9);
   CHECK_FALSE(raise_smallest_sine(mesh, 0));
+}
+
+TEST_CASE("no node movement makes a valid element invalid, however near it is to that") {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    CAPTURE(seed);
+    Rng rng(seed);
+    Mesh mesh = random_mixed_mesh(rng);
+    for (const Index v : free_nodes(mesh)) push_to_the_limit(mesh, v, rng);
+    REQUIRE(defect(mesh) == "");
+    for (const Index v : free_nodes(mesh)) {
+      CAPTURE(v);
+      relax_node(mesh, v);
+      REQUIRE(mesh.is_valid_star(v));
+      raise_smallest_sine(mesh, v);
+      REQUIRE(mesh.is_valid_star(v));
+    }
+  }
+}
+
+TEST_CASE("has_immovable_fault: a straight or reflex corner of three nodes that stay is one, any other is none") {
+  Mesh mesh = quad_grid(3, 3);
+  // Quad 0 1 5 4 in the corner of the grid, 5 its only free node.
+  const std::vector<Index> inner = {5, 6, 9, 10};
+  CHECK_FALSE(has_immovable_fault(mesh, inner));
+  mesh.set_point(5, {-1, -1});  // everything around it is turned over, but it can move
+  CHECK_FALSE(has_immovable_fault(mesh, inner));
+  mesh.set_point(5, {1, 1});
+  mesh.set_point(0, {0.5, 0.5});  // straight: 1 0 4
+  CHECK(has_immovable_fault(mesh, inner));
+  CHECK(has_immovable_fault(mesh, std::vector<Index>{5}));
+  CHECK_FALSE(has_immovable_fault(mesh, std::vector<Index>{6, 9, 10}));  // not around these
+  const std::vector<Index> with_the_corner = {0, 5, 6, 9, 10};
+  CHECK_FALSE(has_immovable_fault(mesh, with_the_corner));
 }
