@@ -65,7 +65,7 @@ class CleanUp {
     return attempt(
         mesh_, relaxing_, kRings, nodes_near(mesh_, c), nodes_,
         [&](std::vector<Index>& nodes) { return apply(mesh_, c, nodes); },
-        [](double before, double after) { return after >= std::min(before, kFloor); });
+        [](const Worth& before, const Worth& after) { return after.worst >= std::min(before.worst, kFloor); });
   }
 
   kernel::Mesh& mesh_;

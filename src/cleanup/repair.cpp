@@ -17,9 +17,9 @@ constexpr int kRings = 2;
 constexpr int kUntanglingSweeps = 12;
 
 /// A repair has to pay: a slightly better corner is not worth irregular nodes.
-bool is_clearly_better(double before, double after) {
+bool is_clearly_better(const Worth& before, const Worth& after) {
   constexpr double kFactor = 1.5, kStep = 0.1;
-  return after > kFactor * before && after > before + std::min(kStep, before);
+  return after.worst > kFactor * before.worst && after.worst > before.worst + std::min(kStep, before.worst);
 }
 
 class Repair {

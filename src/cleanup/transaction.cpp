@@ -2,14 +2,29 @@
 
 #include <algorithm>
 
-
 namespace qmorph::cleanup {
 
-double worst_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
-  double worst = 1;
-  for (Index v : nodes)
-    if (mesh.is_live_vertex(v)) worst = std::min(worst, mesh.smallest_sine_around(v));
-  return worst;
+Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
+  std::vector<Index> faces;
+  for (Index v : nodes) {
+    if (!mesh.is_live_vertex(v)) continue;
+    Index h = mesh.out(v);
+    do {
+      if (mesh.face(h) != kNone) faces.push_back(mesh.face(h));
+      h = mesh.rotate_ccw(h);
+    } while (h != mesh.out(v));
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  Worth worth;
+  double sum = 0;
+  for (Index f : faces) {
+    const double sine = mesh.smallest_sine(f);
+    worth.worst = std::min(worth.worst, sine);
+    sum += sine;
+  }
+  if (!faces.empty()) worth.mean = sum / double(faces.size());
+  return worth;
 }
 
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate) {

@@ -8,14 +8,17 @@
 
 namespace qmorph::cleanup {
 
-/// Smallest corner sine of the faces around these nodes.
-double worst_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+/// Shapes of the faces around some nodes, by their scaled Jacobians.
+struct Worth {
+  double worst = 1, mean = 1;
+};
+Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 
 /// Nodes of the faces that a candidate starts from.
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
 
 /// Carries out `edit(nodes)`, which changes the topology and appends the nodes around, removes the doublets that
-/// result, relaxes `rings` rings around, and keeps all that if `accept(worst sine before, after)`. Otherwise the mesh is
+/// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`. Otherwise the mesh is
 /// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after.
 template <class Edit, class Accept>
 bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
@@ -33,14 +36,14 @@ template <class Edit, class Accept>
 bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
              const std::vector<Index>& near, std::vector<Index>& nodes, const Edit& edit,
              const Accept& accept) {
-  const double before = worst_around(mesh, near);
+  const Worth before = worth_around(mesh, near);
   nodes.clear();
   mesh.begin();
   bool kept = edit(nodes);
   if (kept) {
     topology::remove_doublets(mesh, nodes);
     kept = smoothing::smooth_near(mesh, relaxing, nodes, rings) &&
-           accept(before, worst_around(mesh, nodes));
+           accept(before, worth_around(mesh, nodes));
   }
   kept ? mesh.commit() : mesh.rollback();
   return kept;

@@ -1,0 +1,124 @@
+#include "cleanup/cavity.hpp"
+
+namespace qmorph::cleanup {
+
+using kernel::Mesh;
+
+void Cavity::new_round() {
+  if (face_mark_.size() < mesh_.face_slots()) face_mark_.resize(mesh_.face_slots(), 0);
+  if (node_mark_.size() < mesh_.vertex_slots()) {
+    node_mark_.resize(mesh_.vertex_slots(), 0);
+    leaving_.resize(mesh_.vertex_slots(), kNone);
+  }
+  if (++round_ == 0) {  // marks of four thousand million rounds ago would look new
+    face_mark_.assign(face_mark_.size(), 0);
+    node_mark_.assign(node_mark_.size(), 0);
+    round_ = 1;
+  }
+}
+
+bool Cavity::add(Index f) {
+  if (!mesh_.is_quad(f)) return false;
+  if (face_mark_[f] == round_) return true;
+  face_mark_[f] = round_;
+  faces_.push_back(f);
+  return true;
+}
+
+bool Cavity::add_around(Index v) {
+  Index h = mesh_.out(v);
+  do {
+    if (mesh_.face(h) != kNone && !add(mesh_.face(h))) return false;
+    h = mesh_.rotate_ccw(h);
+  } while (h != mesh_.out(v));
+  return true;
+}
+
+bool Cavity::start(Index v) {
+  new_round();
+  faces_.clear();
+  return mesh_.is_free(v) && add_around(v) && make_convex();
+}
+
+bool Cavity::grow(std::size_t most) {
+  const std::vector<Index> outline = outline_;
+  bool irregular = false;
+  for (Index h : outline) {
+    const Index v = mesh_.origin(h);
+    if (!mesh_.is_free(v) || mesh_.valence(v) == 4) continue;
+    irregular = true;
+    if (!add_around(v)) return false;
+  }
+  if (!irregular)
+    for (Index h : outline)
+      if (mesh_.is_free(mesh_.origin(h)) && !add_around(mesh_.origin(h))) return false;
+  return faces_.size() <= most && make_convex() && faces_.size() <= most;
+}
+
+bool Cavity::make_convex() {
+  constexpr int kMostRounds = 8;
+  for (int i = 0; i < kMostRounds; ++i) {
+    if (!trace()) return false;
+    const std::size_t before = faces_.size();
+    for (std::size_t k = 0; k < outline_.size(); ++k) {
+      const Index v = mesh_.origin(outline_[k]);
+      if (outer_[k] == 2 && mesh_.is_free(v) && !add_around(v)) return false;
+    }
+    if (faces_.size() == before) return true;
+  }
+  return false;
+}
+
+/// Finds outline and inner nodes. False if the quads are no disc or an inner node is not free.
+bool Cavity::trace() {
+  // A round of its own for the nodes: marks of faces must stay.
+  inner_.clear();
+  outline_.clear();
+  outer_.clear();
+  std::size_t border = 0;
+  Index first = kNone;
+  for (Index f : faces_) {
+    Index h = mesh_.half_edge(f);
+    for (int i = 0; i < 4; ++i, h = mesh_.next(h)) {
+      if (contains(mesh_.face(Mesh::twin(h)))) continue;
+      leaving_[mesh_.origin(h)] = first = h;
+      ++border;
+    }
+  }
+  if (first == kNone) return false;
+  Index h = first;
+  do {
+    if (outline_.size() == border) return false;
+    outline_.push_back(h);
+    h = leaving_[mesh_.target(h)];
+  } while (h != first);
+  if (outline_.size() != border) return false;  // touches itself, or has a hole
+
+  for (std::size_t k = 0; k < border; ++k) {
+    const Index back = Mesh::twin(outline_[(k + border - 1) % border]);
+    int inside = 0;
+    Index e = outline_[k];
+    while ((e = mesh_.rotate_ccw(e)) != back) ++inside;
+    outer_.push_back(int(mesh_.valence(mesh_.origin(outline_[k]))) - inside);
+  }
+  // Nodes that are not on the outline.
+  for (Index f : faces_) {
+    Index e = mesh_.half_edge(f);
+    for (int i = 0; i < 4; ++i, e = mesh_.next(e)) node_mark_[mesh_.origin(e)] = 0;
+  }
+  for (Index e : outline_) node_mark_[mesh_.origin(e)] = round_;
+  for (Index f : faces_) {
+    Index e = mesh_.half_edge(f);
+    for (int i = 0; i < 4; ++i, e = mesh_.next(e)) {
+      const Index v = mesh_.origin(e);
+      if (node_mark_[v] == round_) continue;
+      node_mark_[v] = round_;
+      if (!mesh_.is_free(v)) return false;
+      inner_.push_back(v);
+    }
+  }
+  // Euler's formula of a disc: V - E + F = 1.
+  return inner_.size() + border + faces_.size() == (4 * faces_.size() + border) / 2 + 1;
+}
+
+}  // namespace qmorph::cleanup

@@ -1,0 +1,14 @@
+#pragma once
+/// Irregular nodes that cancel each other over a distance: a disc of quads around them is replaced as a whole.
+
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::cleanup {
+
+/// Grows a disc of quads from each irregular node and replaces it by a filling (filling.hpp) whose valences score better,
+/// in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so do
+/// boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+
+}  // namespace qmorph::cleanup
