@@ -1,86 +1,16 @@
 #include "cleanup/clean_up.hpp"
 
-#include <algorithm>
-#include <deque>
-
-#include "cleanup/transaction.hpp"
+#include "cleanup/change_valences.hpp"
+#include "cleanup/replace_cavities.hpp"
 
 namespace qmorph::cleanup {
-namespace {
-
-/// A change may lower the smallest sine around it, but not under this (unless it was lower before).
-constexpr double kFloor = 0.4;
-constexpr int kRings = 2;
-
-class CleanUp {
- public:
-  CleanUp(kernel::Mesh& mesh, const SmoothingOptions& smoothing)
-      : mesh_(mesh), score_(mesh), relaxing_(smoothing) {
-    relaxing_.iterations = 3;
-    relaxing_.untangling_sweeps = 8;  // a change that needs more is no improvement
-  }
-
-  std::size_t run() {
-    for (Index v = 0; v < mesh_.vertex_slots(); ++v) enqueue(v);
-    std::size_t most = 4 * mesh_.vertex_slots() + 1000;
-    while (!queue_.empty() && most-- > 0) {
-      const Index v = queue_.front();
-      queue_.pop_front();
-      queued_[v] = 0;
-      if (mesh_.is_live_vertex(v) && score_.excess(v) != 0) improve(v);
-    }
-    return changes_;
-  }
-
- private:
-  void enqueue(Index v) {
-    if (v >= queued_.size()) queued_.resize(mesh_.vertex_slots() + 1, 0);
-    if (queued_[v] || !mesh_.is_live_vertex(v) || score_.excess(v) == 0) return;
-    queued_[v] = 1;
-    queue_.push_back(v);
-  }
-
-  void improve(Index v) {
-    constexpr int kMostTries = 8;
-    int tries = 0;
-    if (mesh_.valence(v) > kMostValence) return;
-    for (const Candidate& c : candidates_around(mesh_, score_, v, 1)) {
-      if (++tries > kMostTries) return;
-      if (!attempt_change(c)) continue;
-      ++changes_;
-      for (Index u : nodes_)
-        if (mesh_.is_live_vertex(u)) {
-          enqueue(u);
-          Index h = mesh_.out(u);
-          do {
-            enqueue(mesh_.target(h));
-            h = mesh_.rotate_ccw(h);
-          } while (h != mesh_.out(u));
-        }
-      return;
-    }
-  }
-
-  bool attempt_change(const Candidate& c) {
-    return attempt(
-        mesh_, relaxing_, kRings, nodes_near(mesh_, c), nodes_,
-        [&](std::vector<Index>& nodes) { return apply(mesh_, c, nodes); },
-        [](const Worth& before, const Worth& after) { return after.worst >= std::min(before.worst, kFloor); });
-  }
-
-  kernel::Mesh& mesh_;
-  Score score_;
-  SmoothingOptions relaxing_;
-  std::deque<Index> queue_;
-  std::vector<char> queued_;
-  std::vector<Index> nodes_;
-  std::size_t changes_ = 0;
-};
-
-}  // namespace
 
 std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
-  return CleanUp(mesh, smoothing).run();
+  // Cavities first: they keep the size of the elements better. Local changes mend what no cavity holds, at boundaries above
+  // all, and leave fewer irregular nodes to cancel.
+  std::size_t changes = replace_cavities(mesh, smoothing);
+  changes += change_valences(mesh, smoothing);
+  return changes + replace_cavities(mesh, smoothing);
 }
 
 }  // namespace qmorph::cleanup

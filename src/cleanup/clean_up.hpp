@@ -6,9 +6,9 @@
 
 namespace qmorph::cleanup {
 
-/// Changes the connectivity where the sum of (valence - ideal)^2 falls, each change in a transaction that is
-/// kept only if the elements around are valid and good enough after a guarded relaxation. Boundary, fixed nodes
-/// and parity stay. Returns the number of changes. Cost: linear.
+/// Changes the connectivity where valences get better, each change in a transaction that is kept only if the
+/// elements around are valid and good enough after a guarded relaxation. Boundary, fixed nodes and parity stay.
+/// Returns the number of changes. Cost: linear.
 std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
 
 }  // namespace qmorph::cleanup

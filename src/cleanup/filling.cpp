@@ -146,13 +146,13 @@ int quads_of(const Filling& filling, int n) {
   return count;
 }
 
-bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces,
-          const Filling& filling, std::vector<Index>& nodes) {
+bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces, const Filling& filling,
+          std::vector<Index>& nodes) {
   for (Index h : ring) nodes.push_back(mesh.origin(h));
   mesh.make_face(ring, faces);
   if (filling.corners != 4) return fill_star(mesh, ring, filling, nodes);
-  return Filler(mesh, nodes).grid(ring[filling.corner[0]], filling.corner[1] - filling.corner[0],
-                                  filling.corner[2] - filling.corner[1]);
+  return Filler(mesh, nodes)
+      .grid(ring[filling.corner[0]], filling.corner[1] - filling.corner[0], filling.corner[2] - filling.corner[1]);
 }
 
 }  // namespace qmorph::cleanup

@@ -27,7 +27,7 @@ std::optional<Filling> filling_between(const std::vector<int>& corners, int n);
 
 /// Replaces the faces inside the ring (half-edges, inside on their left). Appends the new nodes and those of the ring to `nodes`.
 /// False, perhaps half-way, if an edge that it needs is there already outside: to be called in a transaction.
-bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces,
-          const Filling& filling, std::vector<Index>& nodes);
+bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces, const Filling& filling,
+          std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

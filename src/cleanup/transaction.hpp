@@ -21,9 +21,8 @@ std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candida
 /// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`. Otherwise the mesh is
 /// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after.
 template <class Edit, class Accept>
-bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
-             const std::vector<Index>& near, std::vector<Index>& nodes, const Edit& edit,
-             const Accept& accept);
+bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
+             std::vector<Index>& nodes, const Edit& edit, const Accept& accept);
 
 }  // namespace qmorph::cleanup
 
@@ -33,17 +32,15 @@ bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
 namespace qmorph::cleanup {
 
 template <class Edit, class Accept>
-bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings,
-             const std::vector<Index>& near, std::vector<Index>& nodes, const Edit& edit,
-             const Accept& accept) {
+bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
+             std::vector<Index>& nodes, const Edit& edit, const Accept& accept) {
   const Worth before = worth_around(mesh, near);
   nodes.clear();
   mesh.begin();
   bool kept = edit(nodes);
   if (kept) {
     topology::remove_doublets(mesh, nodes);
-    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings) &&
-           accept(before, worth_around(mesh, nodes));
+    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings) && accept(before, worth_around(mesh, nodes));
   }
   kept ? mesh.commit() : mesh.rollback();
   return kept;

@@ -1,0 +1,14 @@
+#pragma once
+/// Cleanup by score: the local changes of operations.hpp. Design section 5.
+
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::cleanup {
+
+/// Changes the connectivity where the sum of (valence - ideal)^2 falls, each change in a transaction that is
+/// kept only if the elements around are valid and good enough after a guarded relaxation. Boundary, fixed nodes
+/// and parity stay. Returns the number of changes. Cost: linear.
+std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+
+}  // namespace qmorph::cleanup

@@ -1,0 +1,25 @@
+#pragma once
+/// The edge lengths that a mesh had when cleanup began, so that many small changes do not drift away from them.
+
+#include <vector>
+
+#include "kernel/mesh.hpp"
+
+namespace qmorph::cleanup {
+
+class ElementSize {
+ public:
+  explicit ElementSize(const kernel::Mesh& mesh);
+
+  /// Quads of the wanted size that have the area of these quads.
+  double quads_wanted(const std::vector<Index>& quads) const;
+  double mean(const std::vector<Index>& nodes) const;
+  /// For new nodes: the size of those that they replace.
+  void set(Index v, double size);
+
+ private:
+  const kernel::Mesh& mesh_;
+  std::vector<double> size_;  ///< by node
+};
+
+}  // namespace qmorph::cleanup

@@ -1,0 +1,24 @@
+#pragma once
+/// Which fillings would give a cavity better valences.
+
+#include <vector>
+
+#include "cleanup/cavity.hpp"
+#include "cleanup/filling.hpp"
+#include "cleanup/score.hpp"
+
+namespace qmorph::cleanup {
+
+struct FillingChoice {
+  Filling filling;
+  double cost = 0;  ///< score of the outline's nodes and the new ones, after
+  double misfit =
+      0;  ///< how far the angles of the outline are from those that the filling asks for, squared, in half turns
+};
+
+/// Fillings of the cavity that cost `most_cost` at most and whose number of quads is near `quads_wanted`; best first.
+/// Cost: quadratic in the length of the outline.
+std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
+                                           double most_cost, double quads_wanted);
+
+}  // namespace qmorph::cleanup
