@@ -35,8 +35,8 @@ QuadMesh convert(const Patch& patch, const Options& options) {
   const Surface surface(patch);
   require_no_overlap(surface.regions, surface.plane);
   return work_on_regions(surface, options.measure_stages,
-                         [&](const Region& region, ConversionStats& stats, Snapshots* snapshots) {
-                           return convert_region(region, surface.plane, options, stats, snapshots);
+                         [&](std::size_t r, ConversionStats& stats, Snapshots* snapshots) {
+                           return convert_region(surface.regions[r], surface.plane, options, stats, snapshots);
                          });
 }
 

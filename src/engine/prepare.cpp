@@ -48,7 +48,7 @@ std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
 void repair_input(Mesh& mesh, const Plane& plane) {
   std::vector<Index> flat;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (mesh.is_valid_face(f)) continue;
+    if (!mesh.is_live_face(f) || mesh.is_valid_face(f)) continue;
     const auto n = topology::nodes_of(mesh, f);
     if (orientation(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])) < 0 &&
         mesh.smallest_sine(f) < -kDegenerateSine)

@@ -125,6 +125,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
       region.open.push_back(open[c]);
     }
     region.triangles.push_back(corners);
+    region.row.push_back(t);
   }
   return regions;
 }

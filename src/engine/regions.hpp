@@ -32,6 +32,7 @@ struct Region {
   std::vector<Vec2> points;
   std::vector<Index> node;  ///< row of Patch::points of each vertex
   std::vector<std::array<Index, 3>> triangles;
+  std::vector<Index> row;   ///< of Patch::triangles, of each triangle
   std::vector<bool> open;    ///< side 3 * triangle + i is boundary
   std::vector<Index> fixed;  ///< vertices to keep in place that may be inside
   std::size_t boundary_sides = 0;

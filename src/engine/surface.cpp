@@ -34,7 +34,7 @@ QuadMesh work_on_regions(const Surface& surface, bool measure_stages, const Work
     const Region& region = surface.regions[r];
     ++stats.regions;
     stats.odd_regions += region.boundary_sides % 2;
-    meshes.push_back(work(region, stats, measure_stages ? &snapshots[r] : nullptr));
+    meshes.push_back(work(r, stats, measure_stages ? &snapshots[r] : nullptr));
   }
   Collector collector(surface.patch, surface.plane, surface.plane_points);
   for (std::size_t r = 0; r < meshes.size(); ++r) collector.add(surface.regions[r], meshes[r]);

@@ -23,8 +23,8 @@ struct Surface {
   std::vector<Region> regions;
 };
 
-/// Makes a region into quads. `snapshots` may be null.
-using Work = std::function<kernel::Mesh(const Region& region, ConversionStats& stats, Snapshots* snapshots)>;
+/// Makes the region of this number into quads. `snapshots` may be null.
+using Work = std::function<kernel::Mesh(std::size_t region, ConversionStats& stats, Snapshots* snapshots)>;
 
 /// Works on all regions and puts the results together, with the figures of each stage if `measure_stages`.
 QuadMesh work_on_regions(const Surface& surface, bool measure_stages, const Work& work);

@@ -1,0 +1,64 @@
+#include "engine/collector.hpp"
+#include "engine/mixed.hpp"
+#include "engine/overlap.hpp"
+#include "engine/prepare.hpp"
+#include "engine/surface.hpp"
+#include "qmorph/convert.hpp"
+
+namespace qmorph {
+namespace {
+
+/// A region whose elements are valid now, as triangles alone and as the mesh that it is.
+struct Start {
+  Region region;
+  kernel::Mesh mesh;
+};
+
+Start make_start(const Region& region, std::size_t triangles, const Plane& plane, const Options& options) {
+  Start start{region, join_halves(region, triangles)};
+  mend_quads(start.mesh, options.smoothing, plane);
+  repair_input(start.mesh, plane);
+  take_triangles(start.mesh, start.region);
+  return start;
+}
+
+kernel::Mesh improve_region(const Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
+                            ConversionStats& stats, Snapshots* snapshots) {
+  Pipeline pipeline(options, stats, snapshots, input);
+  kernel::Mesh mesh = start.mesh;
+  pipeline.finish(mesh);
+  const std::string fault = find_fault(mesh, start.region, plane);
+  if (fault.empty()) return mesh;
+
+  // What quads leave no room for may be possible without them.
+  kernel::Mesh triangles(start.region.points, start.region.triangles, start.region.open);
+  for (Index v : start.region.fixed) triangles.set_fixed(v);
+  pipeline.advance_front(triangles);
+  pipeline.finish(triangles);
+  if (!find_fault(triangles, start.region, plane).empty()) throw SurfaceError(fault);
+  return triangles;
+}
+
+}  // namespace
+
+QuadMesh improve(const Patch& patch, const Options& options) {
+  require_sound(patch);
+  if (patch.triangles.empty() && patch.quads.empty()) return {};
+  const Patch halves = cut_quads(patch);
+  const std::size_t triangles = patch.triangles.size();
+  const Surface surface(halves);
+  std::vector<Start> starts;
+  std::vector<Region> regions;
+  for (const Region& region : surface.regions) {
+    starts.push_back(make_start(region, triangles, surface.plane, options));
+    regions.push_back(starts.back().region);
+  }
+  require_no_overlap(regions, surface.plane);
+  return work_on_regions(
+      surface, options.measure_stages, [&](std::size_t r, ConversionStats& stats, Snapshots* snapshots) {
+        const kernel::Mesh input = snapshots ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
+        return improve_region(starts[r], input, surface.plane, options, stats, snapshots);
+      });
+}
+
+}  // namespace qmorph

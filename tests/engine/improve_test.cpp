@@ -1,0 +1,199 @@
+// Quads and triangles in, better quads out.
+#include <doctest/doctest.h>
+
+#include <map>
+#include <set>
+
+#include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
+#include "support/domains.hpp"
+#include "support/invariants.hpp"
+#include "support/rng.hpp"
+
+namespace {
+
+using qmorph::improve;
+using qmorph::Index;
+using qmorph::Patch;
+using qmorph::QuadMesh;
+using qmorph::test::broken_invariants;
+
+/// A grid of unit squares, n by m; node (x, y) is row x + y * (n + 1).
+Patch grid(Index n, Index m) {
+  Patch patch;
+  for (Index y = 0; y <= m; ++y)
+    for (Index x = 0; x <= n; ++x) patch.points.emplace_back(x, y, 0);
+  for (Index y = 0; y < m; ++y)
+    for (Index x = 0; x < n; ++x) {
+      const Index a = x + y * (n + 1), d = a + n + 1;
+      patch.quads.push_back({a, a + 1, d + 1, d});
+    }
+  return patch;
+}
+
+/// The invariants speak of triangles to convert: the quads of the patch, cut.
+std::vector<std::string> broken(Patch patch, const QuadMesh& mesh) {
+  for (const auto& q : patch.quads) {
+    patch.triangles.push_back({q[0], q[1], q[2]});
+    patch.triangles.push_back({q[0], q[2], q[3]});
+  }
+  patch.quads.clear();
+  return broken_invariants(patch, mesh);
+}
+
+/// Joins triangles at random, whatever shape the quads have: what a careless program makes.
+Patch join_at_random(const Patch& in, std::uint64_t seed) {
+  std::map<std::pair<Index, Index>, Index> triangle_at;
+  for (Index t = 0; t < in.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) triangle_at[{in.triangles[t][i], in.triangles[t][(i + 1) % 3]}] = t;
+  std::set<std::pair<Index, Index>> closed;
+  for (const auto& [a, b] : in.constraints) closed.insert({a, b}), closed.insert({b, a});
+  qmorph::test::Rng rng(seed);
+  std::vector<bool> used(in.triangles.size(), false);
+  Patch out = in;
+  out.triangles.clear();
+  for (Index t = 0; t < in.triangles.size(); ++t) {
+    if (used[t]) continue;
+    used[t] = true;
+    const auto& n = in.triangles[t];
+    bool joined = false;
+    for (int i = 0; i < 3 && !joined; ++i) {
+      const auto beyond = triangle_at.find({n[(i + 1) % 3], n[i]});
+      if (beyond == triangle_at.end() || used[beyond->second] || closed.count({n[i], n[(i + 1) % 3]}) ||
+          rng.chance(0.2))
+        continue;
+      const auto& m = in.triangles[beyond->second];
+      for (int k = 0; k < 3; ++k)
+        if (m[k] != n[i] && m[k] != n[(i + 1) % 3]) out.quads.push_back({n[i], m[k], n[(i + 1) % 3], n[(i + 2) % 3]});
+      used[beyond->second] = joined = true;
+    }
+    if (!joined) out.triangles.push_back(n);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("improve: a grid stays what it is") {
+  const Patch patch = grid(6, 4);
+  const QuadMesh mesh = improve(patch);
+  CHECK(broken(patch, mesh).empty());
+  CHECK(mesh.quads.size() == 24);
+  CHECK(mesh.points == patch.points);
+}
+
+TEST_CASE("improve: triangles that were joined at random become quads within the invariants") {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    CAPTURE(seed);
+    const Patch triangles = qmorph::test::random_domain(seed).patch;
+    if (!triangles.quads.empty()) continue;
+    const Patch patch = join_at_random(triangles, seed);
+    const QuadMesh mesh = improve(patch);
+    const auto complaints = broken_invariants(triangles, mesh);
+    if (!complaints.empty()) FAIL_CHECK(complaints.front());
+  }
+}
+
+TEST_CASE("improve: a pair of triangles far apart meets") {
+  Patch patch = grid(9, 5);
+  const auto cut = [&](std::size_t q) {
+    const auto n = patch.quads[q];
+    patch.quads.erase(patch.quads.begin() + std::ptrdiff_t(q));
+    patch.triangles.push_back({n[0], n[1], n[2]});
+    patch.triangles.push_back({n[0], n[2], n[3]});
+  };
+  cut(40);
+  cut(3);
+  const QuadMesh mesh = improve(patch);
+  CHECK(broken(patch, mesh).empty());
+  CHECK(mesh.quads.size() == 45);
+  CHECK(qmorph::measure(mesh).irregular_nodes == 0);
+}
+
+TEST_CASE("improve: a node that was pulled over its neighbours goes back") {
+  Patch patch = grid(6, 6);
+  SUBCASE("one") { patch.points[3 + 3 * 7] = {5.2, 4.4, 0}; }
+  SUBCASE("two next to each other") {
+    patch.points[3 + 3 * 7] = {5.2, 4.4, 0};
+    patch.points[3 + 4 * 7] = {4.3, 1.5, 0};
+  }
+  SUBCASE("a chevron") { patch.points[3 + 3 * 7] = {3.8, 3.8, 0}; }
+  const QuadMesh mesh = improve(patch);
+  CHECK(broken(grid(6, 6), mesh).empty());
+  CHECK(mesh.quads.size() == 36);
+  CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.99);
+}
+
+TEST_CASE("improve: a quad whose corners cannot move is cut and built anew") {
+  // A bar with a notch from below to node 5. All nodes are on the boundary.
+  //   4---3---2
+  //   |  5    |
+  //   0 /   \ 1
+  Patch patch;
+  patch.points = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {2, 3, 0}, {0, 3, 0}, {2, 1, 0}};
+  patch.quads = {{0, 5, 3, 4}, {5, 1, 2, 3}};
+  SUBCASE("beside each other") {}
+  SUBCASE("the tip belongs to one quad and two triangles") {
+    patch.quads = {{0, 5, 1, 3}};
+    patch.triangles = {{0, 3, 4}, {1, 2, 3}};
+  }
+  const QuadMesh mesh = improve(patch);
+  CHECK(broken(patch, mesh).empty());
+  CHECK(mesh.triangles.empty());
+}
+
+TEST_CASE("improve: nodes with two neighbours go") {
+  Patch patch = grid(4, 4);
+  // The square at the centre left becomes two quads around a node inside.
+  const auto n = patch.quads[5];
+  const auto inner = Index(patch.points.size());
+  patch.points.emplace_back(1.6, 1.4, 0);
+  patch.quads[5] = {n[0], n[1], n[2], inner};
+  patch.quads.push_back({n[0], inner, n[2], n[3]});
+  const QuadMesh mesh = improve(patch);
+  CHECK(mesh.quads.size() == 16);
+  CHECK(qmorph::measure(mesh).irregular_nodes == 0);
+}
+
+TEST_CASE("improve: constraints, fixed nodes and odd boundaries are respected") {
+  Patch patch = grid(6, 5);
+  patch.constraints = {{1 + 7, 2 + 7}, {2 + 7, 3 + 7}};
+  patch.fixed = {4 + 3 * 7};
+  patch.points[4 + 3 * 7] += Eigen::Vector3d(0.3, 0.2, 0);
+  patch.quads.pop_back();  // the corner square becomes a triangle
+  patch.triangles.push_back({5 + 4 * 7, 6 + 4 * 7, 5 + 5 * 7});
+  const QuadMesh mesh = improve(patch);
+  CHECK(broken(patch, mesh).empty());
+  CHECK(mesh.triangles.size() == 1);
+}
+
+TEST_CASE("improve: a constraint along the diagonal of a quad cuts it") {
+  Patch patch = grid(3, 3);
+  patch.constraints = {{1 + 4, 2 + 2 * 4}};
+  const QuadMesh mesh = improve(patch);
+  CHECK(broken(patch, mesh).empty());
+}
+
+TEST_CASE("improve: a fold in the boundary is refused, with its place") {
+  Patch patch = grid(3, 2);
+  patch.points[1] = {1, 2.5, 0};
+  try {
+    improve(patch);
+    FAIL("nothing was said");
+  } catch (const qmorph::SurfaceError& error) {
+    const std::string what = error.what();
+    CAPTURE(what);
+    CHECK(what.find("(1, 2.5, 0)") != std::string::npos);
+  }
+}
+
+TEST_CASE("improve: nothing comes of nothing, and the stages are measured as in a conversion") {
+  CHECK(improve(Patch{}).quads.empty());
+  qmorph::Options options;
+  options.measure_stages = true;
+  const QuadMesh mesh = improve(grid(3, 2), options);
+  REQUIRE(mesh.stats.stages.size() == qmorph::kStages);
+  CHECK(mesh.stats.stages.front().quality.result().quads == 6);
+  CHECK(mesh.stats.stages.front().quality.result().triangles == 0);
+  CHECK(mesh.stats.stages.back().quality.result().quads == 6);
+}
