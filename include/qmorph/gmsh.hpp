@@ -56,4 +56,9 @@ struct ModelReport {
 /// Cost: linear in the size of the model.
 ModelReport recombine(const std::vector<int>& surfaces = {}, const Options& options = {});
 
+/// The same for surfaces that consist of quads already, or of quads and triangles, as Gmsh's own recombination leaves
+/// them: all their elements may change, and what comes out has better quads (see `improve()` of qmorph/convert.hpp).
+/// Surfaces come out as kConverted or kLeft.
+ModelReport improve_quads(const std::vector<int>& surfaces = {}, const Options& options = {});
+
 }  // namespace qmorph

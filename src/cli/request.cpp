@@ -44,6 +44,8 @@ constexpr std::array kRows = {
     Row{"nt", "-nt N", 1, For::kUs, "threads; the result does not depend on it"},
     Row{"v", "-v N", 1, For::kUs, "0: errors only, 1: and the summary, 2 and more: and Gmsh's warnings (default 5)"},
     Row{"surfaces", "--surfaces T,T,...", 1, For::kUs, "convert the surfaces with these tags only"},
+    Row{"cleanup-only", "--cleanup-only", 0, For::kUs,
+        "improve quads, by Gmsh or anyone, that are there already; triangles among them are paired"},
     Row{"stats", "--stats FILE", 1, For::kUs, "write the figures of the result to FILE (JSON)"},
     Row{"help", "--help", 0, For::kUs, "show this text"},
     Row{"version", "--version", 0, For::kUs, "show the version"},
@@ -197,6 +199,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
   std::vector<std::string> surfaces;
   app.add_option("--surfaces", surfaces)->delimiter(',')->allow_extra_args(false);
+  app.add_flag("--cleanup-only", request.cleanup_only);
   app.add_option("--stats", request.stats);
   app.add_flag("--help", request.help);
   app.add_flag("--version", request.version);

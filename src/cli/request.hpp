@@ -13,6 +13,7 @@ struct Request {
   std::vector<int> surfaces;
   int verbosity = 0;
   bool help = false, version = false;
+  bool cleanup_only = false;  ///< improve the quads that are there
   bool algorithm_chosen = false;
   std::optional<double> msh_version;        ///< of -setnumber Mesh.MshFileVersion
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary

@@ -167,7 +167,8 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
   options.measure_stages = !request.stats.empty();
-  const ModelReport model = recombine(request.surfaces, options);
+  const ModelReport model =
+      request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   if (model.surfaces.empty()) {
     err << "qmorph: nothing to convert: " << request.input << " has no surface with elements\n";
     return kNothingToConvert;

@@ -182,20 +182,23 @@ BadQuad find_bad_quad(const Patch& patch) {
   return {};
 }
 
-std::string find_defect(const Patch& patch, const QuadMesh& mesh) {
+std::string find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads) {
   if (std::string defect = find_bad_reference(patch, mesh); !defect.empty()) return defect;
   const std::vector<Index> rows = result_rows(patch, mesh);
   for (Index node : patch.fixed)
     if (std::string defect = find_moved_node(patch, mesh, rows, node); !defect.empty()) return defect;
   if (std::string defect = find_lost_edge(patch, mesh, rows); !defect.empty()) return defect;
-  if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
+  const bool kept = quads == InputQuads::kept;
+  if (kept)
+    if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
 
   const Eigen::Vector3d normal = patch_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
-  const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(patch.quads.size());
+  const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);
   if (std::string bad = find_bad_corner<4>(mesh, made, normal); !bad.empty()) return bad;
   if (std::string bad = find_bad_corner<3>(mesh, mesh.triangles, normal); !bad.empty()) return bad;
-  const double before = twice_area(patch), after = twice_area(mesh);
+  // Quads that are free to change may be turned over in the input.
+  const double before = kept ? twice_area(patch) : area_vector(patch).norm(), after = twice_area(mesh);
   if (!(std::abs(after - before) <= kAreaTolerance * before))
     return fmt::format("the area has changed by a factor of {:.9g}", after / before);
   return {};

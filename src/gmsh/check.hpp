@@ -18,9 +18,12 @@ struct BadQuad {
 };
 BadQuad find_bad_quad(const Patch& patch);
 
+/// Whether the quads of the input have to be in the result.
+enum class InputQuads { kept, free };
+
 /// What is wrong with a result, with coordinates, or an empty string. Looks at the invariants I1 to I4 and I6 of the
 /// design: boundary and constraint edges, fixed nodes, conformity, positive corners, area.
 /// Cost: linear.
-std::string find_defect(const Patch& patch, const QuadMesh& mesh);
+std::string find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads = InputQuads::kept);
 
 }  // namespace qmorph::adapter

@@ -24,6 +24,7 @@ struct SurfaceMesh {
   std::uint32_t entity = 0;  ///< index into ModelMesh::entities
   std::vector<SurfacePart> parts;
   std::vector<std::string> warnings;
+  bool quads_may_go = false;  ///< the quads of the input are not kept: what they are made into takes their tags
 };
 
 /// Edges of the mesh that nothing may remove: those with a line element on them, and those that several surfaces

@@ -109,11 +109,24 @@ void refuse_bad_quads(const SurfaceMesh& surface) {
                                      part.quad_tags[bad.quad], bad.where));
 }
 
+/// What is done to a surface: its triangles are converted, or its quads improved as well.
+enum class Task { convert, improve };
+
+/// The quads of a surface may change.
+void free_quads(SurfaceMesh& surface) {
+  surface.quads_may_go = true;
+  for (SurfacePart& part : surface.parts) part.quad_tags.clear();
+}
+
 /// One run over the surfaces of a model.
 class Run {
  public:
-  Run(const Options& options, ModelReport& report)
-      : options_(options), report_(report), model_(read_model(report)), fixed_edges_(model_.mesh, model_.use) {
+  Run(Task task, const Options& options, ModelReport& report)
+      : task_(task),
+        options_(options),
+        report_(report),
+        model_(read_model(report)),
+        fixed_edges_(model_.mesh, model_.use) {
     refuse_ghost_cells(model_.mesh);
     periodic_ = find_periodic(model_.mesh);
     common_ = find_common_elements(model_.mesh, model_.use);
@@ -128,6 +141,7 @@ class Run {
   void convert_surface(std::uint32_t entity, SurfaceReport& report);
   void measure_quads(std::uint32_t entity, SurfaceReport& report);
 
+  const Task task_;
   const Options& options_;
   ModelReport& report_;
   ReadModel model_;
@@ -148,7 +162,7 @@ void Run::visit(std::uint32_t entity) {
   std::tie(report.triangles_in, report.quads_in) = count_elements(mesh);
   report.triangles_out = report.triangles_in;
   report.quads_out = report.quads_in;
-  if (report.triangles_in == 0) {
+  if (report.triangles_in == 0 && task_ == Task::convert) {
     measure_quads(entity, report);
   } else {
     try {
@@ -171,21 +185,25 @@ void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
   StopWatch watch;
   ConvertedSurface converted;
   converted.surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
-  refuse_bad_quads(converted.surface);
+  if (task_ == Task::convert)
+    refuse_bad_quads(converted.surface);
+  else
+    free_quads(converted.surface);
   report_.read_seconds += watch.lap();
   ConversionStats stats;
   for (const SurfacePart& part : converted.surface.parts) {
-    converted.results.push_back(convert(part.patch, options_));
+    converted.results.push_back(task_ == Task::convert ? convert(part.patch, options_) : improve(part.patch, options_));
     stats.add(converted.results.back().stats);
   }
   report_.convert_seconds += watch.lap();
 
   QualityAccumulator quality;
   std::size_t triangles = 0, quads = 0;
+  const InputQuads quads_are = task_ == Task::convert ? InputQuads::kept : InputQuads::free;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const Patch& patch = converted.surface.parts[p].patch;
     const QuadMesh& result = converted.results[p];
-    if (const std::string defect = find_defect(patch, result); !defect.empty())
+    if (const std::string defect = find_defect(patch, result, quads_are); !defect.empty())
       throw SurfaceError("the result is not valid: " + defect + "; this is a mistake of qmorph");
     quality.add(result.points, result.triangles, result.quads, patch_normal(patch));
     triangles += result.triangles.size();
@@ -250,6 +268,17 @@ std::vector<std::uint32_t> select_surfaces(const ModelMesh& mesh, const std::vec
   return selected;
 }
 
+ModelReport run(Task task, const std::vector<int>& surfaces, const Options& options) {
+  ModelReport report;
+  const QuietErrors quiet;
+  StopWatch watch;
+  Run run(task, options, report);
+  report.read_seconds += watch.lap();
+  for (std::uint32_t entity : select_surfaces(run.mesh(), surfaces)) run.visit(entity);
+  run.finish();
+  return report;
+}
+
 }  // namespace
 
 std::size_t ModelReport::count(SurfaceOutcome outcome) const {
@@ -258,14 +287,11 @@ std::size_t ModelReport::count(SurfaceOutcome outcome) const {
 }
 
 ModelReport recombine(const std::vector<int>& surfaces, const Options& options) {
-  ModelReport report;
-  const QuietErrors quiet;
-  StopWatch watch;
-  Run run(options, report);
-  report.read_seconds += watch.lap();
-  for (std::uint32_t entity : select_surfaces(run.mesh(), surfaces)) run.visit(entity);
-  run.finish();
-  return report;
+  return run(Task::convert, surfaces, options);
+}
+
+ModelReport improve_quads(const std::vector<int>& surfaces, const Options& options) {
+  return run(Task::improve, surfaces, options);
 }
 
 }  // namespace qmorph

@@ -69,8 +69,11 @@ std::vector<std::size_t> all_element_tags(const ModelMesh& mesh) {
 std::vector<std::size_t> tags_of_removed(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
   std::vector<std::size_t> tags;
   for (const ConvertedSurface& converted : surfaces)
-    if (const ElementBlock* block = mesh.entities[converted.surface.entity].block(kTriangle3))
-      tags.insert(tags.end(), block->tags.begin(), block->tags.end());
+    for (int type : {kTriangle3, kQuad4}) {
+      if (type == kQuad4 && !converted.surface.quads_may_go) continue;
+      if (const ElementBlock* block = mesh.entities[converted.surface.entity].block(type))
+        tags.insert(tags.end(), block->tags.begin(), block->tags.end());
+    }
   return tags;
 }
 
