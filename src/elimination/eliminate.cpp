@@ -5,6 +5,7 @@
 #include <queue>
 #include <span>
 
+#include "elimination/certain.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
 
@@ -199,11 +200,6 @@ struct Effort {
 constexpr Effort kLight[] = {{Cut::ear, Room::none, 1, 6},
                             {Cut::ear, Room::chain, 1, 4},
                             {Cut::around_node, Room::none, 1, 4}};
-constexpr Effort kHeavy[] = {{Cut::ear, Room::ring, 2, 4},
-                            {Cut::ear, Room::chain, 4, 2},
-                            {Cut::around_node, Room::chain, 4, 4},
-                            {Cut::around_node, Room::ring, 4, 4},
-                            {Cut::ear, Room::two_rings, 4, 2}};
 
 /// The faces on a path, the one behind its last edge too.
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
@@ -307,9 +303,25 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search&
   return done;
 }
 
+/// Triangle f meets the nearest partner, whatever elements that makes: they are valid, and cleanup follows.
+bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
+  const std::vector<Index> path = search.path_to_triangle(f, 0);
+  if (path.empty()) return false;
+  std::vector<Index> nodes;
+  mesh.begin();
+  if (!pair_along(mesh, path, nodes)) {
+    mesh.rollback();
+    return false;
+  }
+  mesh.commit();
+  mesh.begin();
+  smoothing::smooth_near(mesh, smoothing, nodes, kRings) ? mesh.commit() : mesh.rollback();
+  return true;
+}
+
 }  // namespace
 
-std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
+std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing, Means means) {
   pair_triangles(mesh);
   Search search(mesh);
   Budget budget(mesh);
@@ -323,8 +335,7 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing) {
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
       const bool passed = pass_at_once(mesh, thorough, budget, search, f, kLight) ||
                           walk(mesh, thorough, budget, search, f) ||
-                          (mesh.is_triangle(f) &&
-                           pass_at_once(mesh, thorough, budget, search, f, kHeavy));
+                          (means == Means::cutting && mesh.is_triangle(f) && pair_for_certain(mesh, thorough, search, f));
       progress = progress || passed;
     }
   }

@@ -6,9 +6,15 @@
 
 namespace qmorph::elimination {
 
+/// What may be done so that two triangles meet.
+enum class Means {
+  moving,   ///< nodes may move, as far as shapes allow it with reasonable effort
+  cutting,  ///< where that fails, the quads between them are cut up: always possible, not pretty (see certain.hpp)
+};
+
 /// Pairs the triangles that are left, best shape first, then passes triangles along the shortest chain of
 /// elements to one another until at most one is left. Valid elements stay valid. Returns the number of
-/// triangles left: 0 or 1 unless the geometry allowed no chain.
-std::size_t eliminate_triangles(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+/// triangles left: with `cutting` 0 or 1 unless corners are too small for numbers.
+std::size_t eliminate_triangles(kernel::Mesh& mesh, const SmoothingOptions& smoothing, Means means = Means::cutting);
 
 }  // namespace qmorph::elimination

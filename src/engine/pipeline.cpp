@@ -42,7 +42,7 @@ void Pipeline::advance_front(kernel::Mesh& mesh) {
 }
 
 void Pipeline::finish(kernel::Mesh& mesh) {
-  elimination::eliminate_triangles(mesh, options_.smoothing);
+  elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving);
   end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
   progress("smoothing", 0);
   SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
@@ -57,7 +57,12 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
   // Better shapes may have opened a way for triangles that found none before.
-  if (count_faces(mesh, 3) > 1) elimination::eliminate_triangles(mesh, options_.smoothing);
+  if (count_faces(mesh, 3) > 1) {
+    elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting);
+    cleanup::clean_up(mesh, options_.smoothing);
+    smoothing::smooth(mesh, options_.smoothing);
+    cleanup::repair(mesh, options_.smoothing);
+  }
   end_stage(Stage::repair, mesh, stats_.cleanup_seconds);
 }
 
