@@ -36,6 +36,9 @@ struct ConversionStats {
   /// One for each stage, in their order; a stage that was not run has the figures of the one before. Empty unless
   /// `Options::measure_stages`.
   std::vector<StageFigures> stages;
+  /// For each inner edge of the result, its length over that of the input's edges nearby (the median of the 12 whose
+  /// middles are nearest). Empty unless `Options::measure_stages`.
+  std::vector<double> size_ratios;
 
   /// Adds those of another surface.
   void add(const ConversionStats& other);

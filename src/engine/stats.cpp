@@ -17,6 +17,7 @@ void ConversionStats::add(const ConversionStats& other) {
   elimination_seconds += other.elimination_seconds;
   cleanup_seconds += other.cleanup_seconds;
   smoothing_seconds += other.smoothing_seconds;
+  size_ratios.insert(size_ratios.end(), other.size_ratios.begin(), other.size_ratios.end());
   if (stages.empty()) {
     stages = other.stages;
     return;

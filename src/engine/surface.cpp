@@ -1,6 +1,7 @@
 #include "engine/surface.hpp"
 
 #include "engine/collector.hpp"
+#include "quality/size_ratio.hpp"
 
 namespace qmorph {
 namespace {
@@ -40,6 +41,7 @@ QuadMesh work_on_regions(const Surface& surface, bool measure_stages, const Work
   for (std::size_t r = 0; r < meshes.size(); ++r) collector.add(surface.regions[r], meshes[r]);
   QuadMesh mesh = collector.finish();
   for (StageFigures& figures : stats.stages) measure_stage(surface, snapshots, figures);
+  if (measure_stages) stats.size_ratios = size_ratios(surface.patch, mesh);
   mesh.stats = std::move(stats);
   return mesh;
 }

@@ -5,6 +5,7 @@
 
 #include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
+#include "quality/percentile.hpp"
 #include "quality/valence.hpp"
 
 namespace qmorph {
@@ -44,17 +45,6 @@ std::array<Vector3d, N> corners_of(std::span<const Vector3d> points, const std::
   return corners;
 }
 
-/// numpy's default percentile: linear between the two nearest ranks. Reorders `values`.
-double percentile(std::vector<double>& values, double percent) {
-  const double rank = percent / 100 * double(values.size() - 1);
-  const auto below = std::size_t(rank);
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(below), values.end());
-  const double low = values[below];
-  if (below + 1 == values.size()) return low;
-  const double high = *std::min_element(values.begin() + std::ptrdiff_t(below) + 1, values.end());
-  return std::lerp(low, high, rank - double(below));
-}
-
 /// Adds the interior angles of all elements to the angle of each node. A node at which two parts of the surface touch
 /// gets the sum of both parts, as it gets the edges of both. Reflex corners, which no valid element has, count as 360 -
 /// angle.
@@ -90,6 +80,16 @@ void count_valences(std::span<const Vector3d> points, std::span<const std::array
 }
 
 }  // namespace
+
+double percentile(std::vector<double>& values, double percent) {
+  const double rank = percent / 100 * double(values.size() - 1);
+  const auto below = std::size_t(rank);
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(below), values.end());
+  const double low = values[below];
+  if (below + 1 == values.size()) return low;
+  const double high = *std::min_element(values.begin() + std::ptrdiff_t(below) + 1, values.end());
+  return std::lerp(low, high, rank - double(below));
+}
 
 void QualityAccumulator::add_elements(std::span<const Vector3d> points, std::span<const std::array<Index, 3>> triangles,
                                       std::span<const std::array<Index, 4>> quads, const ElementNormals& normals) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "quality/percentile.hpp"
 #include "report/version.hpp"
 
 namespace qmorph::report {
@@ -59,6 +60,12 @@ Json stages_json(const std::vector<StageFigures>& stages) {
   return rows;
 }
 
+/// Edge length of the result over the input's nearby.
+Json size_json(std::vector<double> ratios) {
+  if (ratios.empty()) return Json::object();
+  return {{"median", percentile(ratios, 50)}, {"p5", percentile(ratios, 5)}, {"p95", percentile(ratios, 95)}};
+}
+
 Json engine_json(const ConversionStats& s) {
   return {{"regions", s.regions},
           {"odd_regions", s.odd_regions},
@@ -69,11 +76,12 @@ Json engine_json(const ConversionStats& s) {
             {"elimination", s.elimination_seconds},
             {"cleanup", s.cleanup_seconds},
             {"smoothing", s.smoothing_seconds}}},
+          {"size_ratio", size_json(s.size_ratios)},
           {"stages", stages_json(s.stages)}};
 }
 
 /// Of the surfaces that were converted.
-ConversionStats sum_stages(const ModelReport& model) {
+ConversionStats sum_stats(const ModelReport& model) {
   ConversionStats sum;
   for (const SurfaceReport& surface : model.surfaces)
     if (surface.outcome == SurfaceOutcome::kConverted) sum.add(surface.stats);
@@ -123,7 +131,9 @@ std::string stats_json(const ModelReport& model, const RunFacts& facts) {
                      {"write", facts.write_seconds}, {"total", facts.total_seconds}};
   json["warnings"] = model.warnings;
   json["total"] = quality_json(model.total);
-  json["stages"] = stages_json(sum_stages(model).stages);
+  const ConversionStats sum = sum_stats(model);
+  json["size_ratio"] = size_json(sum.size_ratios);
+  json["stages"] = stages_json(sum.stages);
   json["surfaces"] = Json::array();
   for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <vector>
+
+namespace qmorph {
+
+/// numpy's default percentile: linear between the two nearest ranks. Reorders `values`, of which there is at least one.
+double percentile(std::vector<double>& values, double percent);
+
+}  // namespace qmorph

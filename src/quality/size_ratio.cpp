@@ -1,0 +1,119 @@
+#include "quality/size_ratio.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "quality/percentile.hpp"
+
+namespace qmorph {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kNeighbours = 12;
+
+struct Edge {
+  Index low, high;
+  auto operator<=>(const Edge&) const = default;
+};
+
+/// All sides of all elements, sorted: an edge with two elements is there twice.
+template <class Mesh>
+std::vector<Edge> sorted_sides(const Mesh& mesh) {
+  std::vector<Edge> sides;
+  sides.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
+  const auto add = [&](const auto& element) {
+    for (std::size_t i = 0; i < element.size(); ++i) {
+      const Index a = element[i], b = element[(i + 1) % element.size()];
+      sides.push_back({std::min(a, b), std::max(a, b)});
+    }
+  };
+  for (const auto& t : mesh.triangles) add(t);
+  for (const auto& q : mesh.quads) add(q);
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Edges by their middles: a balanced k-d tree in an array; the middle of each range is the root of its subtree.
+class EdgeTree {
+ public:
+  EdgeTree(const std::vector<Vector3d>& points, const std::vector<Edge>& edges) {
+    for (const Edge& e : edges)
+      nodes_.push_back({(points[e.low] + points[e.high]) / 2, (points[e.high] - points[e.low]).norm(), 0});
+    build(0, nodes_.size());
+  }
+
+  /// Median length of the edges nearest to p.
+  double local_length(const Vector3d& p) {
+    found_.clear();
+    search(0, nodes_.size(), p);
+    lengths_.clear();
+    for (const auto& [distance, i] : found_) lengths_.push_back(nodes_[i].length);
+    return percentile(lengths_, 50);
+  }
+
+ private:
+  struct Node {
+    Vector3d middle;
+    double length;
+    int axis;
+  };
+
+  void build(std::size_t first, std::size_t last) {
+    if (last - first < 2) return;
+    Vector3d low = nodes_[first].middle, high = low;
+    for (std::size_t i = first; i < last; ++i)
+      low = low.cwiseMin(nodes_[i].middle), high = high.cwiseMax(nodes_[i].middle);
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    const std::size_t root = (first + last) / 2;
+    const auto at = [&](std::size_t i) { return nodes_.begin() + std::ptrdiff_t(i); };
+    std::nth_element(at(first), at(root), at(last),
+                     [axis](const Node& a, const Node& b) { return a.middle[axis] < b.middle[axis]; });
+    nodes_[root].axis = axis;
+    build(first, root);
+    build(root + 1, last);
+  }
+
+  /// Keeps the nearest in a heap with the farthest of them on top.
+  void search(std::size_t first, std::size_t last, const Vector3d& p) {
+    if (first >= last) return;
+    const std::size_t root = (first + last) / 2;
+    const Node& node = nodes_[root];
+    found_.emplace_back((node.middle - p).squaredNorm(), root);
+    std::push_heap(found_.begin(), found_.end());
+    if (found_.size() > kNeighbours) {
+      std::pop_heap(found_.begin(), found_.end());
+      found_.pop_back();
+    }
+    const double beyond = p[node.axis] - node.middle[node.axis];
+    const bool left = beyond < 0;
+    left ? search(first, root, p) : search(root + 1, last, p);
+    if (found_.size() < kNeighbours || beyond * beyond <= found_.front().first)
+      left ? search(root + 1, last, p) : search(first, root, p);
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::pair<double, std::size_t>> found_;
+  std::vector<double> lengths_;
+};
+
+}  // namespace
+
+std::vector<double> size_ratios(const Patch& before, const QuadMesh& after) {
+  std::vector<Edge> edges = sorted_sides(before);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<double> ratios;
+  if (edges.empty()) return ratios;
+  EdgeTree tree(before.points, edges);
+  const std::vector<Edge> sides = sorted_sides(after);
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i] != sides[i - 1]) continue;
+    const Vector3d &a = after.points[sides[i].low], &b = after.points[sides[i].high];
+    const double nearby = tree.local_length((a + b) / 2);
+    if (nearby > 0) ratios.push_back((b - a).norm() / nearby);
+  }
+  return ratios;
+}
+
+}  // namespace qmorph
