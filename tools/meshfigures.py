@@ -48,10 +48,11 @@ class Surface:
         n_tri = len(triangles)
         self.triangle_jacobians = scaled_jacobians(points[triangles], normals[:n_tri])
         self.quad_jacobians = scaled_jacobians(points[quads], normals[n_tri:])
+        self.thesis_metrics = thesis_metrics(points[quads], normals[n_tri:])
 
         edges = np.sort(np.concatenate([element_edges(triangles), element_edges(quads)]), axis=1)
         self.edges, uses = np.unique(edges, axis=0, return_counts=True)
-        self.boundary_edges = self.edges[uses == 1]
+        self.boundary_edges, self.inner_edges = self.edges[uses == 1], self.edges[uses > 1]
         nodes, valence = np.unique(self.edges, return_counts=True)
         interior = ~np.isin(nodes, self.boundary_edges)
         self.interior_nodes, self.valence = nodes[interior], valence[interior]
@@ -103,6 +104,7 @@ class Mesh:
         """The figures of one table row, all surfaces together."""
         surfaces = list(self.surfaces.values())
         jacobians = np.concatenate([s.quad_jacobians for s in surfaces] or [np.zeros(0)])
+        thesis = np.concatenate([s.thesis_metrics for s in surfaces] or [np.zeros(0)])
         valence = np.concatenate([s.valence for s in surfaces] or [np.zeros(0)])
         triangles = sum(len(s.triangles) for s in surfaces)
         # A line element on a surface that is no edge of its elements: elements were merged across it.
@@ -114,7 +116,28 @@ class Mesh:
         return {"quads": len(jacobians), "triangles": triangles, "inverted": inverted, "lines_lost": lost,
                 "sj_min": float(jacobians.min()) if len(jacobians) else float("nan"),
                 "sj_mean": float(jacobians.mean()) if len(jacobians) else float("nan"),
+                "thesis_min": float(thesis.min()) if len(thesis) else float("nan"),
+                "thesis_mean": float(thesis.mean()) if len(thesis) else float("nan"),
                 "interior": len(valence), "irregular": float((valence != 4).mean()) if len(valence) else 0.0}
+
+
+def size_ratio(before, after, neighbours=12, samples=2000):
+    """How long the quads are: the median, over inner edges of `after` (evenly spread, at most `samples`), of their length
+    over the median length of the `neighbours` edges of `before` whose middles are nearest."""
+    def middles_and_lengths(mesh, edges):
+        a, b = (mesh.points[edges[:, i]] for i in (0, 1))
+        return (a + b) / 2, np.linalg.norm(b - a, axis=1)
+
+    theirs = np.concatenate([s.edges for s in before.surfaces.values()])
+    ours = np.concatenate([s.inner_edges for s in after.surfaces.values()])
+    ours = ours[::max(1, -(-len(ours) // samples))]
+    middles, lengths = middles_and_lengths(before, theirs)
+    ratios = []
+    for middle, length in zip(*middles_and_lengths(after, ours)):
+        distances = ((middles - middle) ** 2).sum(1)
+        nearest = np.argpartition(distances, min(neighbours, len(distances)) - 1)[:neighbours]
+        ratios.append(length / np.median(lengths[nearest]))
+    return float(np.median(ratios)) if ratios else float("nan")
 
 
 def element_edges(elements):
@@ -130,3 +153,26 @@ def scaled_jacobians(corners, normals):
     cross = np.einsum("nki,ni->nk", np.cross(ahead, behind), normals)
     lengths = np.linalg.norm(ahead, axis=2) * np.linalg.norm(behind, axis=2)
     return (cross / np.maximum(lengths, 1e-300)).min(axis=1)
+
+
+def thesis_metrics(corners, normals):
+    """The quads' metric of the Q-Morph thesis, eq. 2.2: the smallest value of 8 area / (sum of squared sides) over the
+    four triangles that the diagonals make; less 1 if two are inverted or a corner is under 6 degrees, less 2 for three,
+    less 3 for four inverted. 1 for a square."""
+    if not len(corners):
+        return np.zeros(0)
+    halves = []
+    for a, b, c in ((0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2, 3)):
+        p, q, r = corners[:, a], corners[:, b], corners[:, c]
+        twice_area = np.einsum("ni,ni->n", np.cross(q - p, r - p), normals)
+        squares = sum(((u - v) ** 2).sum(1) for u, v in ((p, q), (q, r), (r, p)))
+        halves.append(4 * twice_area / np.maximum(squares, 1e-300))
+    halves = np.stack(halves)
+    inverted = (halves < 0).sum(0)
+    ahead = np.roll(corners, -1, axis=1) - corners
+    behind = np.roll(corners, 1, axis=1) - corners
+    sines = np.einsum("nki,ni->nk", np.cross(ahead, behind), normals)
+    angles = np.degrees(np.arctan2(sines, (ahead * behind).sum(2))) % 360
+    sharp = angles.min(1) < 6
+    penalty = np.where(inverted >= 2, inverted - 1, np.where(sharp, 1, 0))
+    return halves.min(0) - penalty
