@@ -2,6 +2,7 @@
 
 #include "cleanup/change_valences.hpp"
 #include "cleanup/replace_cavities.hpp"
+#include "cleanup/straighten_bands.hpp"
 
 namespace qmorph::cleanup {
 
@@ -10,7 +11,8 @@ std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
   // all, and leave fewer irregular nodes to cancel.
   std::size_t changes = replace_cavities(mesh, smoothing);
   changes += change_valences(mesh, smoothing);
-  return changes + replace_cavities(mesh, smoothing);
+  changes += replace_cavities(mesh, smoothing);
+  return changes + straighten_bands(mesh, smoothing);
 }
 
 }  // namespace qmorph::cleanup

@@ -17,8 +17,7 @@ Index remove_doublet(kernel::Mesh& mesh, Index v) {
 void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {  // grows
     const Index v = nodes[i];
-    if (!mesh.is_live_vertex(v) || !mesh.is_free(v) || mesh.valence(v) != 2)
-      continue;
+    if (!mesh.is_live_vertex(v) || !mesh.is_free(v) || mesh.valence(v) != 2) continue;
     const Index h = mesh.out(v);
     const Index f = mesh.face(h), g = mesh.face(mesh.rotate_ccw(h));
     if (f == g || mesh.degree(f) + mesh.degree(g) < 7) continue;
@@ -63,9 +62,7 @@ bool pillow(kernel::Mesh& mesh, const std::vector<Index>& faces, std::vector<Ind
   constexpr double kShare = 0.2;
   std::vector<Index> sorted = faces;
   std::sort(sorted.begin(), sorted.end());
-  const auto inside = [&](Index f) {
-    return f != kNone && std::binary_search(sorted.begin(), sorted.end(), f);
-  };
+  const auto inside = [&](Index f) { return f != kNone && std::binary_search(sorted.begin(), sorted.end(), f); };
   std::vector<Index> outline;
   for (Index f : sorted) {
     const Index start = mesh.half_edge(f);
@@ -100,12 +97,53 @@ bool pillow(kernel::Mesh& mesh, const std::vector<Index>& faces, std::vector<Ind
   return true;
 }
 
+namespace {
+
+/// The half-edges that leave a and b in their common face.
+std::pair<Index, Index> find_in_common_face(const kernel::Mesh& mesh, Index a, Index b) {
+  std::vector<std::pair<Index, Index>> ways;  // from a, both ways along each face
+  std::vector<Index> starts;
+  Index h = mesh.out(a);
+  do {
+    if (mesh.face(h) != kNone) ways.emplace_back(h, h), starts.push_back(h);
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(a));
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      auto& [ahead, back] = ways[i];
+      if (ahead == kNone) continue;
+      ahead = mesh.next(ahead);
+      back = mesh.prev(back);
+      for (Index e : {ahead, back})
+        if (mesh.origin(e) == b) return {starts[i], e};
+      if (ahead == starts[i]) ahead = kNone;
+      any = true;
+    }
+  }
+  return {kNone, kNone};
+}
+
+}  // namespace
+
+Index draw_path(kernel::Mesh& mesh, Index a, Index b, const std::vector<Vec2>& points, std::vector<Index>& nodes) {
+  const auto [g, h] = find_in_common_face(mesh, a, b);
+  if (g == kNone || (points.empty() && mesh.find(a, b) != kNone)) return kNone;
+  const Index first = mesh.split_face(g, h);
+  Index e = first;
+  for (const Vec2& p : points) {
+    nodes.push_back(mesh.split_edge(e, p));
+    e = mesh.next(e);
+  }
+  return first;
+}
+
 double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   const std::size_t n = nodes.size();
   double least = 1;
   for (std::size_t i = 0; i < n; ++i)
-    least = std::min(least, corner_sine(mesh.point(nodes[i]), mesh.point(nodes[(i + 1) % n]),
-                                        mesh.point(nodes[(i + n - 1) % n])));
+    least = std::min(
+        least, corner_sine(mesh.point(nodes[i]), mesh.point(nodes[(i + 1) % n]), mesh.point(nodes[(i + n - 1) % n])));
   return least;
 }
 
