@@ -6,6 +6,7 @@
 #include "cleanup/repair.hpp"
 #include "elimination/eliminate.hpp"
 #include "front/morph.hpp"
+#include "smoothing/corner_energy.hpp"
 #include "smoothing/smooth.hpp"
 
 namespace qmorph {
@@ -56,6 +57,7 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   smoothing::smooth(mesh, options_.smoothing);
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
+  smoothing::raise_worst_corners(mesh, options_.smoothing);
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting);

@@ -1,0 +1,148 @@
+#include "smoothing/corner_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/predicates.hpp"
+#include "smoothing/node_energy.hpp"
+
+namespace qmorph::smoothing {
+namespace {
+
+using kernel::Mesh;
+
+constexpr double kPower = 6;
+/// Sines do not see lengths: corners whose edges differ a lot cost as if they were sharper.
+constexpr double kLengthWeight = 0.1;
+
+/// |a|^2 |b|^2 / J^2 = sine^-2 of a corner with edges a, b and area J = a x b, and with a small part of the squared
+/// ratio of their lengths. The gradients are with respect to the node.
+struct CornerTerm {
+  Vec2 a, b;
+  double da, db;  ///< how the edges follow the node: -1, 0 or 1
+};
+
+/// Adds the term to the energy; with derivatives if `derive`.
+bool add(Energy& energy, const CornerTerm& c, bool derive) {
+  const double j = cross(c.a, c.b), aa = c.a.squaredNorm(), bb = c.b.squaredNorm();
+  if (!(j * j > kStraightSine * kStraightSine * aa * bb) || j <= 0) {
+    energy.finite = false;
+    return false;
+  }
+  const double ratio = aa / bb + bb / aa;
+  const double f = aa * bb / (j * j) * (1 - kLengthWeight + kLengthWeight * 0.5 * ratio);
+  const double value = std::pow(f, kPower);
+  energy.value += value;
+  if (!derive) return true;
+  // Of log f: the length weight is small and left out of the derivatives.
+  const Vec2 ga = (2 * c.da / aa) * c.a, gb = (2 * c.db / bb) * c.b;
+  const Vec2 gj = Vec2(c.da * c.b.y() - c.db * c.a.y(), c.db * c.a.x() - c.da * c.b.x()) / j;
+  const Vec2 g = ga + gb - 2 * gj;
+  const double diagonal = 2 * c.da * c.da / aa + 2 * c.db * c.db / bb;
+  const auto second = [&](double gax, double gay, double gbx, double gby, double gjx, double gjy, double gx, double gy,
+                          double d) { return d - gax * gay - gbx * gby + 2 * gjx * gjy + kPower * gx * gy; };
+  const double weight = kPower * value;
+  energy.gradient += weight * g;
+  energy.xx += weight * second(ga.x(), ga.x(), gb.x(), gb.x(), gj.x(), gj.x(), g.x(), g.x(), diagonal);
+  energy.yy += weight * second(ga.y(), ga.y(), gb.y(), gb.y(), gj.y(), gj.y(), g.y(), g.y(), diagonal);
+  energy.xy += weight * second(ga.x(), ga.y(), gb.x(), gb.y(), gj.x(), gj.y(), g.x(), g.y(), 0);
+  return true;
+}
+
+/// Of all corners of the elements around v, as if v were at p.
+Energy corners_around(const Mesh& mesh, Index v, const Vec2& p, bool derive) {
+  Energy energy;
+  Index h = mesh.out(v);
+  do {
+    if (mesh.face(h) != kNone) {
+      const Vec2 &q = mesh.point(mesh.target(h)), &r = mesh.point(mesh.origin(mesh.prev(h)));
+      const Vec2 &after_q = mesh.point(mesh.target(mesh.next(h))),
+                 &before_r = mesh.point(mesh.origin(mesh.prev(mesh.prev(h))));
+      if (!add(energy, {q - p, r - p, -1, -1}, derive) || !add(energy, {after_q - q, p - q, 0, 1}, derive) ||
+          !add(energy, {p - r, before_r - r, 1, 0}, derive))
+        return energy;
+    }
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return energy;
+}
+
+/// Returns how far the node moved, in edge lengths.
+double improve(Mesh& mesh, Index v, double good) {
+  const Vec2 start = mesh.point(v);
+  const Energy energy = corners_around(mesh, v, start, true);
+  if (!energy.finite) return 0;
+  const double edge = mesh.mean_edge(v), worst = std::min(good, mesh.smallest_sine_around(v));
+  const double determinant = energy.xx * energy.yy - energy.xy * energy.xy;
+  const Vec2& g = energy.gradient;
+  Vec2 step = Vec2::Zero();
+  if (energy.xx > 0 && determinant > 0)
+    step = Vec2(energy.xy * g.y() - energy.yy * g.x(), energy.xy * g.x() - energy.xx * g.y()) / determinant;
+  else if (g.norm() > 0)
+    step = -0.1 * edge / g.norm() * g;
+  for (double share = 1; share > 0.05; share /= 2) {
+    const Vec2 p = start + share * step;
+    const Energy there = corners_around(mesh, v, p, false);
+    if (!there.finite || !(there.value < energy.value)) continue;
+    mesh.set_point(v, p);
+    if (mesh.smallest_sine_around(v) >= worst) return share * step.norm() / edge;
+    mesh.set_point(v, start);
+  }
+  return 0;
+}
+
+/// The sine below which elements count as bad: at most a small share of them, since what they gain the others lose.
+double bad_sine(const Mesh& mesh, double good) {
+  constexpr double kMostBad = 0.05;
+  std::vector<double> sines;
+  std::size_t faces = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    ++faces;
+    const double sine = mesh.smallest_sine(f);
+    if (sine < good) sines.push_back(sine);
+  }
+  const auto most = std::size_t(std::ceil(kMostBad * double(faces)));
+  if (sines.size() <= most) return good;
+  std::nth_element(sines.begin(), sines.begin() + most, sines.end());
+  return sines[most];
+}
+
+/// Free nodes of the bad faces and of `rings` rings of faces around.
+std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
+  std::vector<Index> nodes;
+  std::vector<char> taken(mesh.vertex_slots(), 0);
+  const auto take = [&](Index f) {
+    Index h = mesh.half_edge(f);
+    for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h))
+      if (!taken[mesh.origin(h)]) taken[mesh.origin(h)] = 1, nodes.push_back(mesh.origin(h));
+  };
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f) && mesh.smallest_sine(f) < good) take(f);
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t count = nodes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      Index h = mesh.out(nodes[i]);
+      do {
+        if (mesh.face(h) != kNone) take(mesh.face(h));
+        h = mesh.rotate_ccw(h);
+      } while (h != mesh.out(nodes[i]));
+    }
+  }
+  std::erase_if(nodes, [&](Index v) { return !mesh.is_free(v); });
+  return nodes;
+}
+
+}  // namespace
+
+void raise_worst_corners(Mesh& mesh, const SmoothingOptions& options) {
+  constexpr int kRings = 1, kPasses = 8;
+  const std::vector<Index> nodes = nodes_near_bad(mesh, bad_sine(mesh, options.good_quality), kRings);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    double moved = 0;
+    for (Index v : nodes) moved = std::max(moved, improve(mesh, v, options.good_quality));
+    if (moved < options.move_tolerance) break;
+  }
+}
+
+}  // namespace qmorph::smoothing
