@@ -27,7 +27,7 @@ struct Band {
 
 class BandFinder {
  public:
-  explicit BandFinder(const Mesh& mesh) : mesh_(mesh), seen_(mesh.face_slots(), 0) {}
+  explicit BandFinder(const Mesh& mesh) : mesh_(mesh) {}
 
   /// An edge from boundary to boundary, through the inside.
   bool is_rung(Index h) const {
@@ -62,11 +62,13 @@ class BandFinder {
     Index exit = kNone;
   };
 
+  bool is_seen(Index f) const { return f < seen_.size() && seen_[f]; }
+
   bool trace(Index rung, Piece& piece) const {
     constexpr std::size_t kMostFaces = 24;
     piece.faces = {mesh_.face(Mesh::twin(rung))};
     for (std::size_t i = 0; i < piece.faces.size(); ++i) {
-      if (seen_[piece.faces[i]] || !mesh_.is_quad(piece.faces[i])) return false;
+      if (is_seen(piece.faces[i]) || !mesh_.is_quad(piece.faces[i])) return false;
       const Index start = mesh_.half_edge(piece.faces[i]);
       Index h = start;
       do {
@@ -106,6 +108,7 @@ class BandFinder {
   bool add_piece(Band& band) {
     Piece piece;
     if (!trace(band.last, piece)) return false;
+    if (seen_.size() < mesh_.face_slots()) seen_.resize(mesh_.face_slots(), 0);
     for (Index f : piece.faces) seen_[f] = 1;
     band.faces.insert(band.faces.end(), piece.faces.begin(), piece.faces.end());
     band.lower.insert(band.lower.end(), piece.lower.begin(), piece.lower.end());
