@@ -47,6 +47,7 @@ constexpr std::array kRows = {
     Row{"cleanup-only", "--cleanup-only", 0, For::kUs,
         "improve quads, by Gmsh or anyone, that are there already; triangles among them are paired"},
     Row{"stats", "--stats FILE", 1, For::kUs, "write the figures of the result to FILE (JSON)"},
+    Row{"set", "--set NAME=VALUE", 1, For::kUs, "set a constant of the algorithm (README: \"Constants\")"},
     Row{"help", "--help", 0, For::kUs, "show this text"},
     Row{"version", "--version", 0, For::kUs, "show the version"},
 };
@@ -201,6 +202,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--surfaces", surfaces)->delimiter(',')->allow_extra_args(false);
   app.add_flag("--cleanup-only", request.cleanup_only);
   app.add_option("--stats", request.stats);
+  app.add_option("--set", request.settings)->allow_extra_args(false);
   app.add_flag("--help", request.help);
   app.add_flag("--version", request.version);
   std::reverse(words.begin(), words.end());  // CLI11 takes them from the back

@@ -11,6 +11,7 @@ namespace qmorph::cli {
 struct Request {
   std::string input, output, format, stats;
   std::vector<int> surfaces;
+  std::vector<std::string> settings;        ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;
   bool cleanup_only = false;  ///< improve the quads that are there

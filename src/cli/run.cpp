@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -151,8 +152,23 @@ void commit(const Request& request, adapter::StagedFile* mesh, const std::string
   if (stats) stats->commit();
 }
 
+/// The options of the engine that --set names.
+Options engine_options(const std::vector<std::string>& settings) {
+  Options options;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end) throw UsageError(fmt::format("--set {}: it takes NAME=NUMBER", setting));
+    set_option(options, setting.substr(0, equals), number);
+  }
+  return options;
+}
+
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
+  Options options = engine_options(request.settings);
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   const adapter::Session session(request.gmsh_arguments);
@@ -163,7 +179,6 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
       err << "warning: this Gmsh has no option " << name << '\n';
   const adapter::OpenedModel opened = adapter::open_model(request.input);
 
-  Options options;
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
   options.measure_stages = !request.stats.empty();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cleanup/clean_up.hpp"
+#include "cleanup/patterns/pattern_cleanup.hpp"
 #include "cleanup/repair.hpp"
 #include "elimination/eliminate.hpp"
 #include "front/morph.hpp"
@@ -51,12 +52,16 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   smoothing::smooth(mesh, rough);
   end_stage(Stage::smoothing, mesh, stats_.smoothing_seconds);
   progress("cleanup", 0);
+  cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing);
+  cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing);
   cleanup::clean_up(mesh, options_.smoothing);
+  cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing);
   end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
   progress("smoothing", 0.5);
   smoothing::smooth(mesh, options_.smoothing);
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
+  cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing);
   smoothing::raise_worst_corners(mesh, options_.smoothing);
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {

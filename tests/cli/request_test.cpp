@@ -43,6 +43,10 @@ TEST_CASE("request: lists of surfaces") {
   CHECK(parse({"a.msh"}).surfaces.empty());
 }
 
+TEST_CASE("request: constants of the algorithm") {
+  CHECK(parse({"a.msh", "--set", "THETAMAX=170", "--set=GAMMA=0.9"}).settings == Words{"THETAMAX=170", "GAMMA=0.9"});
+}
+
 TEST_CASE("request: names of files may be odd") {
   CHECK(parse({"a b.geo"}).input == "a b.geo");
   CHECK(parse({"a=b.geo", "-o", "c=d.msh"}).output == "c=d.msh");
