@@ -1,6 +1,7 @@
 #include "qmorph/convert.hpp"
 
 #include "engine/collector.hpp"
+#include "engine/fans.hpp"
 #include "engine/overlap.hpp"
 #include "engine/prepare.hpp"
 #include "engine/surface.hpp"
@@ -14,6 +15,7 @@ kernel::Mesh convert_region(const Region& region, const Plane& plane, const Opti
   for (Index v : region.fixed) start.set_fixed(v);
   Pipeline pipeline(options, stats, snapshots, start);
   repair_input(start, plane);
+  grade_fans(start);
 
   kernel::Mesh mesh = start;
   pipeline.advance_front(mesh);
