@@ -61,4 +61,8 @@ ModelReport recombine(const std::vector<int>& surfaces = {}, const Options& opti
 /// Surfaces come out as kConverted or kLeft.
 ModelReport improve_quads(const std::vector<int>& surfaces = {}, const Options& options = {});
 
+/// Figures of surfaces as they are; nothing changes. Surfaces come out as kAlreadyQuads, whatever they consist of, those
+/// that have no figures (not a manifold, no orientation) with a reason.
+ModelReport measure(const std::vector<int>& surfaces = {});
+
 }  // namespace qmorph

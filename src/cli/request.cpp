@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
+#include <optional>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
+#include "cli/gmsh_options.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::cli {
@@ -17,39 +20,41 @@ namespace {
 /// Gmsh's own default: everything but debugging.
 constexpr int kDefaultVerbosity = 5;
 
-enum class For { kUs, kGmsh };
-
-/// One option. Gmsh writes long names with one dash, CLI11 with two: this table knows both, and how many words follow.
+/// One option of ours. Gmsh writes long names with one dash, CLI11 with two: this table knows both, and how many
+/// words follow. Options without values are flags.
 struct Row {
   std::string_view name;      ///< without dashes
   std::string_view spelling;  ///< as --help shows it
   int values;
-  For reader;
   std::string_view help;
 };
 
 constexpr std::array kRows = {
-    Row{"o", "-o FILE", 1, For::kUs, "write to FILE; without it: IN with the extension of the format"},
-    Row{"format", "-format NAME", 1, For::kUs,
+    Row{"o", "-o FILE", 1, "write to FILE; without it: IN with the extension of the format; -: standard output"},
+    Row{"format", "-format NAME", 1,
         "msh, msh2, msh4, vtk, inp, su2, unv, bdf, mesh, ...; wins over the extension of FILE"},
-    Row{"bin", "-bin", 0, For::kUs, "binary output, for formats that have it"},
-    Row{"clmin", "-clmin SIZE", 1, For::kGmsh, "smallest size of the triangles that Gmsh makes"},
-    Row{"clmax", "-clmax SIZE", 1, For::kGmsh, "largest size"},
-    Row{"clscale", "-clscale F", 1, For::kGmsh, "all sizes times F"},
-    Row{"algo", "-algo NAME", 1, For::kGmsh,
-        "Gmsh's algorithm for the triangles: front2d (default), del2d, meshadapt, delquad, pack, ..."},
-    Row{"setnumber", "-setnumber NAME V", 2, For::kGmsh, "set a constant of the script or an option of Gmsh"},
-    Row{"setstring", "-setstring NAME S", 2, For::kGmsh, "the same for text"},
-    Row{"2", "-2", 0, For::kUs, "surfaces, which is what it does anyway"},
-    Row{"nt", "-nt N", 1, For::kUs, "threads; the result does not depend on it"},
-    Row{"v", "-v N", 1, For::kUs, "0: errors only, 1: and the summary, 2 and more: and Gmsh's warnings (default 5)"},
-    Row{"surfaces", "--surfaces T,T,...", 1, For::kUs, "convert the surfaces with these tags only"},
-    Row{"cleanup-only", "--cleanup-only", 0, For::kUs,
+    Row{"f", "", 1, ""},
+    Row{"bin", "-bin", 0, "binary output, for formats that have it"},
+    Row{"2", "-2", 0, "surfaces, which is what it does anyway"},
+    Row{"3", "-3", 0, "then volumes on the quads, by Gmsh: pyramids and tetrahedra"},
+    Row{"save", "-save", 0, "do not mesh: convert what is there"},
+    Row{"part", "-part N", 1, "cut the result into N partitions"},
+    Row{"nt", "-nt N", 1, "threads; the result does not depend on it"},
+    Row{"v", "-v N", 1, "0: errors only, 1: and the summary, 2 and more: and Gmsh's warnings (default 5)"},
+    Row{"surfaces", "--surfaces T,T,...", 1, "convert the surfaces with these tags only"},
+    Row{"drop-volumes", "--drop-volumes", 0, "remove volume elements, so that their surfaces may become quads"},
+    Row{"cleanup-only", "--cleanup-only", 0,
         "improve quads, by Gmsh or anyone, that are there already; triangles among them are paired"},
-    Row{"stats", "--stats FILE", 1, For::kUs, "write the figures of the result to FILE (JSON)"},
-    Row{"set", "--set NAME=VALUE", 1, For::kUs, "set a constant of the algorithm (README: \"Constants\")"},
-    Row{"help", "--help", 0, For::kUs, "show this text"},
-    Row{"version", "--version", 0, For::kUs, "show the version"},
+    Row{"for", "--for READER", 1,
+        "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
+    Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
+    Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
+    Row{"check", "--check", 0, "judge the mesh IN and write nothing: status 6 if it is not good enough"},
+    Row{"min-sj", "--min-sj X", 1, "for --check: every scaled Jacobian above X (default 0)"},
+    Row{"max-irregular", "--max-irregular X", 1, "for --check: irregular share of interior nodes at most X (0 to 1)"},
+    Row{"no-triangles", "--no-triangles", 0, "for --check: not one triangle"},
+    Row{"help", "--help", 0, "show this text"},
+    Row{"version", "--version", 0, "show the version"},
 };
 
 constexpr std::string_view kHelpHead =
@@ -57,8 +62,8 @@ constexpr std::string_view kHelpHead =
 
 Turns the triangles of a Gmsh model into quads (Q-Morph). IN is anything that Gmsh opens: a
 geometry (.geo, .step, .brep, ...), which Gmsh meshes with triangles first, or a mesh (.msh of any
-version, with or without a geometry), which is taken as it is. Boundaries, curves, points, physical
-groups and tags stay. Takes what a "gmsh -2" line of a Makefile takes.
+version, with or without a geometry), which is taken as it is; further files are merged with it;
+- is the standard input. Boundaries, curves, points, physical groups and tags stay.
 
 )";
 
@@ -73,41 +78,28 @@ Exit status:
   4  nothing to convert: all surfaces are quads already (OUT has been written, with the mesh of IN
      as it was), or there are no surfaces (nothing has been written)
   5  OUT cannot be written; a previous file of that name is as it was
+  6  --check: the mesh is not good enough; --for: the reader would not take it, and nothing has been
+     written
 )";
 
-/// Gmsh's names (notes 3.2). Gmsh prints a complaint about others and goes on, which nobody would see.
-constexpr std::array<std::string_view, 21> kAlgorithms = {
-    "auto",    "meshadapt", "iso",     "del2d", "tri",     "delaunay",   "front2d",
-    "frontal", "bamg",      "delquad", "pack",  "quadqs",  "frontopt2d", "initial2d",
-    "del3d",   "front3d",   "netgen",  "mmg3d", "rtree3d", "hxt",        "initial3d"};
+/// A word of the command line: one of ours, one of Gmsh's, or neither.
+struct Option {
+  const Row* ours = nullptr;
+  const GmshOptionRow* gmsh = nullptr;
+  int values() const { return ours ? ours->values : gmsh->values; }
+};
 
-bool is_number(const std::string& text) {
-  double value = 0;
-  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-}
-
-const Row* find_row(std::string_view word) {
+std::optional<Option> find_option(std::string_view word) {
   const std::size_t dashes = word.substr(0, 2) == "--" ? 2 : word.substr(0, 1) == "-" ? 1 : 0;
-  if (dashes == 0) return nullptr;
+  if (dashes == 0 || word == "-") return std::nullopt;
+  const std::string_view name = word.substr(dashes);
+  const GmshOptionRow* gmsh = find_gmsh_option(name);
+  // Gmsh has a -check of its own, which is not ours.
+  if (dashes == 1 && gmsh) return Option{nullptr, gmsh};
   for (const Row& row : kRows)
-    if (row.name == word.substr(dashes)) return &row;
+    if (row.name == name) return Option{&row, nullptr};
+  if (gmsh) return Option{nullptr, gmsh};
   throw UsageError(fmt::format("unknown option '{}'", word));
-}
-
-/// Values that Gmsh would only complain about, or silently take for 0.
-void check_gmsh_values(const Row& row, const std::vector<std::string>& values) {
-  const auto refuse = [&](std::string_view what) {
-    throw UsageError(fmt::format("-{}: '{}' is not {}", row.name, values.back(), what));
-  };
-  if (row.name == "setnumber" && !is_number(values[1])) refuse("a number");
-  if (row.name.substr(0, 2) == "cl" && (!is_number(values[0]) || std::stod(values[0]) <= 0))
-    refuse("a positive number");
-  if (row.name != "algo") return;
-  std::string name = values[0];
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(kAlgorithms.begin(), kAlgorithms.end(), name) == kAlgorithms.end())
-    refuse("an algorithm of Gmsh (front2d, del2d, meshadapt, delquad, pack, ...)");
 }
 
 double msh_version(const std::string& text) {
@@ -118,17 +110,42 @@ double msh_version(const std::string& text) {
   return version;
 }
 
-void note_gmsh_option(const Row& row, const std::vector<std::string>& values, Request& request) {
+void note_gmsh_option(const GmshOptionRow& row, const std::vector<std::string>& values, Request& request) {
+  if (row.kind == GmshOption::kRefused) throw UsageError(fmt::format("-{}: not here; {}", row.name, row.note));
+  if (row.kind == GmshOption::kNothing) return;
   check_gmsh_values(row, values);
   request.gmsh_arguments.push_back(fmt::format("-{}", row.name));
   request.gmsh_arguments.insert(request.gmsh_arguments.end(), values.begin(), values.end());
   if (row.name == "algo") request.algorithm_chosen = true;
+  if (row.name == "ignore_periodicity") request.ignore_periodicity = true;
+  if (row.name == "order" || row.name == "degree") request.order_chosen = true;
+  if (row.name != "setnumber" && row.name != "setstring") return;
   // Names without a dot are constants of the script.
-  if (values[0].find('.') != std::string::npos && row.values == 2) request.option_names.push_back(values[0]);
+  if (values[0].find('.') != std::string::npos) request.option_names.push_back(values[0]);
   if (row.name != "setnumber") return;
   if (values[0] == "Mesh.Algorithm") request.algorithm_chosen = true;
+  if (values[0] == "Mesh.ElementOrder") request.order_chosen = true;
   if (values[0] == "Mesh.MshFileVersion") request.msh_version = msh_version(values[1]);
   if (values[0] == "Mesh.Binary") request.binary = std::stod(values[1]) != 0;
+}
+
+/// The words that follow an option; `at` is the last that belongs to it.
+std::vector<std::string> take_values(const std::vector<std::string>& arguments, const Option& option,
+                                     const std::optional<std::string>& after_equals, std::size_t& at) {
+  const std::string word = arguments[at].substr(0, arguments[at].find('='));
+  std::vector<std::string> values;
+  if (after_equals) values.push_back(*after_equals);
+  int wanted = option.values();
+  if (wanted < 0) wanted = 2;  // a name and a count
+  while (static_cast<int>(values.size()) < wanted && at + 1 < arguments.size()) {
+    values.push_back(arguments[++at]);
+    int count = 0;
+    if (option.values() < 0 && values.size() == 2 && CLI::detail::lexical_cast(values[1], count) && count > 0)
+      wanted += count;
+  }
+  if (static_cast<int>(values.size()) != wanted)
+    throw UsageError(fmt::format("'{}' needs {} value{}", word, wanted, wanted == 1 ? "" : "s"));
+  return values;
 }
 
 /// Takes out what is Gmsh's and gives the rest CLI11's spelling.
@@ -137,24 +154,23 @@ std::vector<std::string> translate(const std::vector<std::string>& arguments, Re
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     // --name=value is the spelling of other programs; let it be ours as well.
     const std::size_t equals = arguments[i].substr(0, 2) == "--" ? arguments[i].find('=') : std::string::npos;
-    const Row* row = find_row(arguments[i].substr(0, equals));
-    if (!row) {
+    const auto option = find_option(arguments[i].substr(0, equals));
+    if (!option) {
       words.push_back(arguments[i]);
       continue;
     }
-    const std::string& word = arguments[i];
-    std::vector<std::string> values;
-    if (equals != std::string::npos) values.push_back(arguments[i].substr(equals + 1));
-    while (static_cast<int>(values.size()) < row->values && i + 1 < arguments.size()) values.push_back(arguments[++i]);
-    if (static_cast<int>(values.size()) != row->values)
-      throw UsageError(fmt::format("'{}' needs {} value{}", word, row->values, row->values == 1 ? "" : "s"));
+    std::optional<std::string> after_equals;
+    if (equals != std::string::npos) after_equals = arguments[i].substr(equals + 1);
+    const std::vector<std::string> values = take_values(arguments, *option, after_equals, i);
+    if (option->gmsh) {
+      note_gmsh_option(*option->gmsh, values, request);
+      continue;
+    }
+    const Row& row = *option->ours;
     // CLI11 would take the next word in its place.
-    if (row->reader == For::kUs && row->values == 1 && values[0].empty())
-      throw UsageError(fmt::format("{} needs a value", row->spelling.substr(0, row->spelling.find(' '))));
-    if (row->reader == For::kGmsh)
-      note_gmsh_option(*row, values, request);
-    else
-      words.push_back(values.empty() ? fmt::format("--{}", row->name) : fmt::format("--{}={}", row->name, values[0]));
+    if (row.values == 1 && values[0].empty())
+      throw UsageError(fmt::format("{} needs a value", row.spelling.substr(0, row.spelling.find(' '))));
+    words.push_back(values.empty() ? fmt::format("--{}", row.name) : fmt::format("--{}={}", row.name, values[0]));
   }
   return words;
 }
@@ -170,6 +186,17 @@ std::string with_our_spelling(std::string message) {
     }
   }
   return message;
+}
+
+/// Lines of at most 98 characters, each after two blanks.
+std::string wrapped(const std::string& words) {
+  std::istringstream in(words);
+  std::string text, line;
+  for (std::string word; in >> word;) {
+    if (line.size() + word.size() > 95) text += "  " + std::exchange(line, "") + '\n';
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return text + "  " + line + '\n';
 }
 
 int surface_tag(const std::string& text) {
@@ -189,13 +216,23 @@ Request parse(const std::vector<std::string>& arguments) {
 
   CLI::App app;
   app.set_help_flag();
-  bool ignored_flag = false, binary = false;
+  bool ignored_flag = false, binary = false, volumes = false;
   int threads = 0;
-  app.add_option("IN", request.input);
+  std::vector<std::string> inputs;
+  app.add_option("IN", inputs);
   app.add_option("--o", request.output);
-  app.add_option("--format", request.format);
+  app.add_option("--format,--f", request.format);
   app.add_flag("--bin", binary);
   app.add_flag("--2", ignored_flag);
+  app.add_flag("--3", volumes);
+  app.add_flag("--save", request.no_meshing);
+  app.add_option("--part", request.partitions)->check(CLI::NonNegativeNumber);
+  app.add_flag("--drop-volumes", request.drop_volumes);
+  app.add_option("--for", request.consumer);
+  app.add_flag("--check", request.check);
+  auto* min_sj = app.add_option("--min-sj", request.thresholds.min_scaled_jacobian)->check(CLI::Range(-1.0, 1.0));
+  auto* irregular = app.add_option("--max-irregular", request.thresholds.max_irregular)->check(CLI::Range(0.0, 1.0));
+  auto* no_triangles = app.add_flag("--no-triangles", request.thresholds.no_triangles);
   app.add_option("--nt", threads)->check(CLI::NonNegativeNumber);
   app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
   std::vector<std::string> surfaces;
@@ -212,7 +249,12 @@ Request parse(const std::vector<std::string>& arguments) {
     throw UsageError(with_our_spelling(error.what()));
   }
   if (request.help || request.version) return request;
-  if (request.input.empty()) throw UsageError("which file? (qmorph IN [-o OUT])");
+  if (inputs.empty()) throw UsageError("which file? (qmorph IN [-o OUT])");
+  request.input = inputs.front();
+  request.merged.assign(inputs.begin() + 1, inputs.end());
+  if (volumes) request.dimension = 3;
+  if (!request.check && (*min_sj || *irregular || *no_triangles))
+    throw UsageError("--min-sj, --max-irregular and --no-triangles go with --check");
   if (binary) request.binary = true;
   for (const std::string& tag : surfaces) request.surfaces.push_back(surface_tag(tag));
   return request;
@@ -220,8 +262,10 @@ Request parse(const std::vector<std::string>& arguments) {
 
 std::string help_text() {
   std::string text(kHelpHead);
-  for (const Row& row : kRows) text += fmt::format("  {:<20} {}\n", row.spelling, row.help);
-  return text + std::string(kHelpTail);
+  for (const Row& row : kRows)
+    if (!row.help.empty()) text += fmt::format("  {:<20} {}\n", row.spelling, row.help);
+  text += "\nOf gmsh, with the same meaning; other options of gmsh are refused by name:\n";
+  return text + wrapped(passed_gmsh_options()) + std::string(kHelpTail);
 }
 
 }  // namespace qmorph::cli

@@ -7,15 +7,31 @@
 
 namespace qmorph::cli {
 
+/// What --check asks of a mesh.
+struct Thresholds {
+  double min_scaled_jacobian = 0;  ///< at or below which a quad is bad
+  double max_irregular = 1;        ///< share of the interior nodes
+  bool no_triangles = false;
+};
+
 /// One call of the command.
 struct Request {
   std::string input, output, format, stats;
+  std::vector<std::string> merged;  ///< further files, merged with the input
+  std::string consumer;             ///< of --for
+  Thresholds thresholds;
   std::vector<int> surfaces;
   std::vector<std::string> settings;        ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;
   bool cleanup_only = false;  ///< improve the quads that are there
-  bool algorithm_chosen = false;
+  bool check = false;         ///< judge the mesh, write nothing
+  bool no_meshing = false;    ///< -save: what has no elements gets none
+  bool drop_volumes = false;
+  bool ignore_periodicity = false;
+  int dimension = 2;   ///< 3: volumes are meshed on the quads
+  int partitions = 0;  ///< of -part
+  bool algorithm_chosen = false, order_chosen = false;
   std::optional<double> msh_version;        ///< of -setnumber Mesh.MshFileVersion
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary
   std::vector<std::string> option_names;    ///< of Gmsh ("Mesh.Smoothing"), set by -setnumber and -setstring

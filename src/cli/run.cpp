@@ -9,15 +9,21 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <optional>
 #include <utility>
 
+#include "cli/check.hpp"
 #include "cli/progress.hpp"
 #include "cli/request.hpp"
+#include "gmsh/consumers.hpp"
+#include "gmsh/meshing.hpp"
 #include "gmsh/open.hpp"
+#include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
 #include "gmsh/staged_file.hpp"
 #include "gmsh/write.hpp"
@@ -59,6 +65,20 @@ class StdoutAsStderr {
   int saved_ = -1;
 };
 
+/// What Gmsh is told by the name of a file: meshes, STEP, BREP and scripts begin differently.
+std::string extension_of(const std::string& text) {
+  const std::string head = text.substr(0, 4096);
+  const auto has = [&](const char* word) { return head.find(word) != std::string::npos; };
+  if (has("$MeshFormat") || has("$NOD")) return ".msh";
+  if (has("ISO-10303-21")) return ".step";
+  return has("DBRep_DrawableShape") ? ".brep" : ".geo";
+}
+
+/// What a reader would not take, and why.
+struct ReaderError {
+  std::vector<std::string> complaints;
+};
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Also by different names, through links, and before there is such a file.
@@ -73,13 +93,21 @@ bool is_same_file(const std::string& a, const std::string& b) {
 /// Refuses what would fail in the end before hours go into a mesh.
 adapter::OutputPlan check_places(const Request& request) {
   adapter::check_readable(request.input);
+  for (const std::string& file : request.merged) adapter::check_readable(file);
   const auto refuse_stats_at = [&](const std::string& path, std::string_view what) {
     if (!request.stats.empty() && is_same_file(request.stats, path))
       throw UsageError(fmt::format("--stats {} is the {}; give the figures a file of their own", request.stats, what));
   };
   refuse_stats_at(request.input, "input");
   if (!request.stats.empty()) const adapter::StagedFile probe(request.stats);
-  const adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, request.format);
+  std::string format = request.format;
+  if (!request.consumer.empty()) {
+    const std::string_view wanted = adapter::find_consumer(request.consumer).format;
+    if (!format.empty() && format != wanted)
+      throw UsageError(fmt::format("--for {} writes the format {}, not {}", request.consumer, wanted, format));
+    format = wanted;
+  }
+  const adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, format);
   refuse_stats_at(plan.path, "output");
   return plan;
 }
@@ -89,17 +117,41 @@ int status_of(const ModelReport& model) {
   return model.count(SurfaceOutcome::kConverted) ? kAllConverted : kNothingToConvert;
 }
 
+/// Nothing has changed: the output is to be the input, byte for byte.
+bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
+                  const ModelReport& model) {
+  const bool same_format = opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
+                           !request.msh_version && !request.binary && request.merged.empty();
+  const bool untouched = model.count(SurfaceOutcome::kConverted) == 0 && request.dimension != 3 &&
+                         !request.drop_volumes && !request.order_chosen && request.partitions == 0;
+  return same_format && untouched;
+}
+
+/// In the reader's terms. \throws ReaderError
+void write_for_consumer(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
+                        adapter::StagedFile& file) {
+  const adapter::Consumer& consumer = adapter::find_consumer(request.consumer);
+  const adapter::ConsumerMesh mesh = adapter::collect_for(consumer, opened.msh.version != 0);
+  if (!mesh.complaints.empty()) throw ReaderError{mesh.complaints};
+  if (consumer.format == "inp")
+    adapter::write_inp_for(mesh, file.path());
+  else if (consumer.format == "msh2")
+    adapter::write_msh2_for(consumer, mesh, file.path());
+  else
+    adapter::write_model(plan, opened, {}, file);
+}
+
 /// Writes the mesh to a file beside its place. \return false if the output is the input and stays what it is
 bool write(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
            const ModelReport& model, adapter::StagedFile& file) {
-  const bool converted = model.count(SurfaceOutcome::kConverted) != 0;
-  const bool as_it_was = !converted && opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
-                         !request.msh_version && !request.binary;
-  if (as_it_was && is_same_file(request.input, plan.path)) return false;
-  if (as_it_was)
-    adapter::copy_input(request.input, plan, file);
-  else
+  if (!request.consumer.empty()) {
+    write_for_consumer(request, plan, opened, file);
+  } else if (!is_as_it_was(request, plan, opened, model)) {
     adapter::write_model(plan, opened, {request.msh_version, request.binary}, file);
+  } else {
+    if (is_same_file(request.input, plan.path)) return false;
+    adapter::copy_input(request.input, plan, file);
+  }
   return true;
 }
 
@@ -166,6 +218,46 @@ Options engine_options(const std::vector<std::string>& settings) {
   return options;
 }
 
+/// What comes after the quads: volumes on them, the order of all elements, partitions.
+void finish_model(const Request& request, adapter::OpenedModel& opened) {
+  const auto note = [&](const std::vector<std::string>& warnings) {
+    opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
+  };
+  if (request.dimension == 3) note(adapter::mesh_volumes());
+  note(adapter::raise_model());
+  if (!opened.had_mesh) adapter::renumber();
+  if (request.partitions > 0) adapter::partition(request.partitions);
+}
+
+adapter::OpenedModel open(const Request& request, std::ostream& err) {
+  if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
+  if (!request.consumer.empty() && adapter::find_consumer(request.consumer).wants_incomplete)
+    adapter::set_option("Mesh.SecondOrderIncomplete", 1);
+  for (const std::string& name : request.option_names)
+    if (!adapter::option_exists(name) && request.verbosity >= 1)
+      err << "warning: this Gmsh has no option " << name << '\n';
+  adapter::OpenedModel opened =
+      adapter::open_model(request.input, {request.merged, request.no_meshing, request.ignore_periodicity});
+  if (request.drop_volumes) adapter::drop_volumes();
+  return opened;
+}
+
+int check_file(const Request& request, std::ostream& out, std::ostream& err) {
+  adapter::check_readable(request.input);
+  ModelReport model;
+  {
+    const StdoutAsStderr redirected;
+    const adapter::Session session(request.gmsh_arguments);
+    adapter::open_model(request.input, {request.merged, true, request.ignore_periodicity});
+    model = measure(request.surfaces);
+  }
+  if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
+  if (request.verbosity >= 1) out << report::check_line(model) << '\n';
+  const std::vector<std::string> reasons = find_reasons(model, request.thresholds);
+  for (const std::string& reason : reasons) err << "qmorph: " << reason << '\n';
+  return reasons.empty() ? kAllConverted : kNotGoodEnough;
+}
+
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
   Options options = engine_options(request.settings);
@@ -173,11 +265,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const StdoutAsStderr redirected;
   const adapter::Session session(request.gmsh_arguments);
   adapter::check_format(plan);
-  if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
-  for (const std::string& name : request.option_names)
-    if (!adapter::option_exists(name) && request.verbosity >= 1)
-      err << "warning: this Gmsh has no option " << name << '\n';
-  const adapter::OpenedModel opened = adapter::open_model(request.input);
+  adapter::OpenedModel opened = open(request, err);
 
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
@@ -189,8 +277,8 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
     return kNothingToConvert;
   }
 
+  finish_model(request, opened);
   const Clock::time_point write_start = Clock::now();
-  if (!opened.had_mesh) adapter::renumber();
   if (request.verbosity >= 1) {
     const std::string lost = adapter::describe_unwritten(plan, opened);
     if (!lost.empty()) err << "warning: " << lost << '\n';
@@ -207,6 +295,27 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   return facts.exit_status;
 }
 
+/// Standard input and output have names as files for as long as it takes.
+int run_with_streams(Request request, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
+  std::optional<adapter::ScratchFile> input, output;
+  const bool to_stream = request.output == "-" || (request.output.empty() && request.input == "-");
+  if (request.input == "-") {
+    const std::string text(std::istreambuf_iterator<char>(std::cin), {});
+    input.emplace(extension_of(text));
+    std::ofstream(input->path(), std::ios::binary) << text;
+    request.input = input->path();
+  }
+  if (request.check) return check_file(request, out, err);
+  if (!to_stream) return convert_file(request, arguments, err);
+  output.emplace(".msh");
+  request.output = output->path();
+  if (request.format.empty() && request.consumer.empty()) request.format = "msh";
+  const int status = convert_file(request, arguments, err);
+  out << std::ifstream(output->path(), std::ios::binary).rdbuf() << std::flush;
+  out.clear();  // nothing to write is no failure of the stream
+  return status;
+}
+
 int fail(int status, std::string_view what, std::ostream& err) {
   err << "qmorph: " << what << (status == kBadUsage ? " (see qmorph --help)" : "") << '\n';
   return status;
@@ -219,7 +328,10 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
   if (request.help) out << help_text();
   if (request.version) out << "qmorph " << kVersion << '\n';
   if (request.help || request.version) return kAllConverted;
-  return convert_file(request, arguments, err);
+  return run_with_streams(request, arguments, out, err);
+} catch (const ReaderError& error) {
+  for (const std::string& complaint : error.complaints) fail(kNotGoodEnough, complaint, err);
+  return kNotGoodEnough;
 } catch (const UsageError& error) {
   return fail(kBadUsage, error.what(), err);
 } catch (const OutputError& error) {

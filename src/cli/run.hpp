@@ -15,9 +15,11 @@ enum ExitStatus : int {
   kConvertedInPart = 3,
   kNothingToConvert = 4,
   kCannotWrite = 5,
+  kNotGoodEnough = 6,
 };
 
-/// Runs the command. Answers to --help and --version go to `out`, everything else to `err`. Throws nothing.
+/// Runs the command. Answers to --help, --version and --check go to `out`, and the mesh if that is asked for;
+/// everything else to `err`. Throws nothing.
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
 
 }  // namespace qmorph::cli

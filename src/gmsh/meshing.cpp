@@ -8,6 +8,8 @@
 #include <set>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/high_order.hpp"
+#include "gmsh/model_mesh.hpp"
 #include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
 #include "qmorph/error.hpp"
@@ -59,15 +61,6 @@ void forbid_pairing(const std::vector<int>& surfaces) {
   ::gmsh::merge(script.path());
 }
 
-void refuse_high_order() {
-  const double order = get_option("Mesh.ElementOrder");
-  if (order > 1)
-    throw InputError(
-        fmt::format("Mesh.ElementOrder is {:g}, and only linear meshes can be converted for now; set "
-                    "Mesh.ElementOrder = 1",
-                    order));
-}
-
 /// Options that would make Gmsh recombine by itself, for the time of the meshing.
 struct RecombinationOff {
   ScopedOption all{"Mesh.RecombineAll", 0};
@@ -95,7 +88,7 @@ void check_every_surface_has_elements() {
 }  // namespace
 
 std::vector<std::string> mesh_surfaces() {
-  refuse_high_order();
+  const ScopedOption linear("Mesh.ElementOrder", 1);  // raised when the quads are there
   const bool all = get_option("Mesh.RecombineAll") != 0 || get_option("Mesh.SubdivisionAlgorithm") == 1;
   const std::vector<int> flagged = all ? all_surfaces() : flagged_surfaces();
 #if !QMORPH_GMSH_AT_LEAST(4, 9)
@@ -113,6 +106,69 @@ std::vector<std::string> mesh_surfaces() {
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
   check_every_surface_has_elements();
   return log.warnings;
+}
+
+bool drop_volumes() {
+  ::gmsh::vectorpair volumes;
+  ::gmsh::model::getEntities(volumes, 3);
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 3);
+  if (types.empty()) return false;
+  const StageLog log = run_logged([&] { ::gmsh::model::mesh::clear(volumes); });
+  ::gmsh::model::mesh::getElementTypes(types, 3);
+  if (!log.errors.empty() || !types.empty())
+    throw InputError("Gmsh cannot remove the volume elements: " + first_errors(log));
+  return true;
+}
+
+std::vector<std::string> mesh_volumes() {
+  ::gmsh::vectorpair volumes;
+  ::gmsh::model::getEntities(volumes, 3);
+  if (volumes.empty()) return {"there is no volume to mesh"};
+  const StageLog log = run_logged([] {
+    const RecombinationOff off;
+    const ScopedOption linear("Mesh.ElementOrder", 1);
+    ::gmsh::model::mesh::generate(3);
+  });
+  if (!log.errors.empty()) throw InputError("Gmsh cannot mesh the volumes on these quads: " + first_errors(log));
+  std::vector<std::string> warnings = log.warnings;
+  for (const auto& [dim, tag] : volumes) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
+    if (types.empty()) throw InputError(fmt::format("Gmsh made no element in volume {}", tag));
+  }
+  return warnings;
+}
+
+std::vector<std::string> raise_model() {
+  const int order = static_cast<int>(get_option("Mesh.ElementOrder"));
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 2);
+  const bool is_linear =
+      std::all_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 1; });
+  if (order < 2 || !is_linear) return {};
+  const StageLog log = run_logged([&] {
+    ::gmsh::model::mesh::setOrder(order);
+    if (get_option("Mesh.HighOrderOptimize") != 0) ::gmsh::model::mesh::optimize("HighOrder");
+  });
+  if (!log.errors.empty())
+    throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
+  std::vector<std::string> warnings = log.warnings;
+  const ModelMesh mesh = read_model_mesh();
+  for (const EntityMesh& entity : mesh.entities) {
+    if (entity.dim != 2) continue;
+    const std::string where = find_bent_corner(mesh, entity);
+    if (!where.empty())
+      warnings.push_back(fmt::format("surface {}: a curved edge of order {} turns an element over {}; refine there",
+                                     entity.tag, order, where));
+  }
+  return warnings;
+}
+
+void partition(int count) {
+  const StageLog log = run_logged([&] { ::gmsh::model::mesh::partition(count); });
+  if (!log.errors.empty()) throw InputError("Gmsh cannot partition the mesh: " + first_errors(log));
 }
 
 }  // namespace qmorph::adapter

@@ -11,4 +11,20 @@ namespace qmorph::adapter {
 /// \return Gmsh's warnings
 std::vector<std::string> mesh_surfaces();
 
+/// Removes the elements of all volumes, so that their surfaces may become quads. \return true if there were any
+bool drop_volumes();
+
+/// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra.
+/// \throws InputError with Gmsh's own words
+/// \return Gmsh's warnings
+std::vector<std::string> mesh_volumes();
+
+/// Gives a linear model the order of Mesh.ElementOrder, with nodes on the geometry. Nothing happens to others.
+/// \throws InputError
+/// \return warnings
+std::vector<std::string> raise_model();
+
+/// Cuts the current model's mesh into partitions. \throws InputError
+void partition(int count);
+
 }  // namespace qmorph::adapter

@@ -18,6 +18,17 @@ std::size_t nodes_per_element(const ElementBlock& block) {
   return block.tags.empty() ? 0 : block.nodes.size() / block.tags.size();
 }
 
+void set_shape(ElementBlock& block) {
+  // Asking Gmsh is slow, and nearly all blocks are of these types.
+  if (block.type == kPoint1 || block.type == kLine2 || block.type == kTriangle3 || block.type == kQuad4) {
+    block.corners = block.nodes_per_element;
+    return;
+  }
+  const ElementType type = element_type(block.type);
+  block.corners = type.corners;
+  block.order = type.order;
+}
+
 EntityMesh read_entity(int dim, int tag) {
   EntityMesh entity;
   entity.dim = dim;
@@ -36,6 +47,7 @@ EntityMesh read_entity(int dim, int tag) {
     block.tags = std::move(tags[i]);
     block.nodes = std::move(nodes[i]);
     block.nodes_per_element = nodes_per_element(block);
+    set_shape(block);
     if (!block.tags.empty()) entity.blocks.push_back(std::move(block));
   }
   return entity;
@@ -86,6 +98,12 @@ std::size_t EntityMesh::element_count() const {
 const ElementBlock* EntityMesh::block(int type) const {
   for (const ElementBlock& candidate : blocks)
     if (candidate.type == type) return &candidate;
+  return nullptr;
+}
+
+const ElementBlock* EntityMesh::polygons(std::size_t corners) const {
+  for (const ElementBlock& candidate : blocks)
+    if (candidate.corners == corners) return &candidate;
   return nullptr;
 }
 

@@ -9,17 +9,17 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gmsh/element_types.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph::adapter {
-
-/// Gmsh's numbers for the element types that this adapter tells apart.
-inline constexpr int kLine2 = 1, kTriangle3 = 2, kQuad4 = 3, kPoint1 = 15;
 
 /// The elements of one type of one entity.
 struct ElementBlock {
   int type = 0;
   std::size_t nodes_per_element = 0;
+  std::size_t corners = 0;  ///< come first among the nodes
+  int order = 1;
   std::vector<std::size_t> tags;
   std::vector<std::size_t> nodes;  ///< node tags, nodes_per_element for each
 };
@@ -34,6 +34,8 @@ struct EntityMesh {
 
   std::size_t element_count() const;
   const ElementBlock* block(int type) const;
+  /// Of surfaces: triangles (3) or quads (4), whatever their order.
+  const ElementBlock* polygons(std::size_t corners) const;
 };
 
 /// From node tags to rows 0 .. n-1: an array where the tags are dense, a map where they are not.

@@ -13,6 +13,7 @@
 
 #include "gmsh/compat.hpp"
 #include "gmsh/model_mesh.hpp"
+#include "gmsh/session.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -84,9 +85,10 @@ void write_group_names(Output& out) {
 }
 
 void write_nodes(Output& out, const ModelMesh& mesh) {
+  const double factor = get_option("Mesh.ScalingFactor");
   out.text("$Nodes\n{}\n", mesh.tags.size());
   for (std::size_t row = 0; row < mesh.tags.size(); ++row) {
-    const Eigen::Vector3d& p = mesh.points[row];
+    const Eigen::Vector3d p = factor * mesh.points[row];
     if (out.binary) {
       out.raw(int32(mesh.tags[row]));
       for (const double coordinate : {p.x(), p.y(), p.z()}) out.raw(coordinate);

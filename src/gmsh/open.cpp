@@ -128,6 +128,13 @@ StageLog open_file(const std::string& path) {
   return log;
 }
 
+void merge_file(const std::string& path) {
+  check_readable(path);
+  if (const MshHeader header = read_msh_header(path); header.version != 0) check_msh_file(path, header);
+  const StageLog log = run_logged([&] { ::gmsh::merge(path); });
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
+}
+
 }  // namespace
 
 /// Gmsh before 4.12 says nothing about a missing file, and asks no further about the others (notes, trap 3).
@@ -141,19 +148,21 @@ void check_readable(const std::string& path) {
     throw InputError(fmt::format("{} is empty", path));
 }
 
-OpenedModel open_model(const std::string& path) {
+OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   check_readable(path);
   OpenedModel opened;
   opened.msh = read_msh_header(path);
   MshContents contents;
   if (opened.msh.version != 0) contents = check_msh_file(path, opened.msh);
-  set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it on reading (notes 1.5)
+  if (!options.ignore_periodicity) set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it (notes 1.5)
 
   auto start = std::chrono::steady_clock::now();
   const ScratchFile rewritten(".msh");
-  if (opened.msh.is_2() && !opened.msh.binary) opened.origin = separate_groups(path, rewritten.path());
+  if (opened.msh.is_2() && !opened.msh.binary && get_option("Mesh.SwitchElementTags") == 0)
+    opened.origin = separate_groups(path, rewritten.path());
   const StageLog log = open_file(opened.origin.empty() ? path : rewritten.path());
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
+  for (const std::string& file : options.merged) merge_file(file);
   take_control();
   check_element_count(path, contents, opened.origin);
   add_groups(opened.origin);
@@ -167,7 +176,7 @@ OpenedModel open_model(const std::string& path) {
   opened.open_seconds = seconds_since(start);
 
   opened.had_mesh = opened.msh.version != 0 || surfaces_have_elements();
-  if (opened.had_mesh || !has_surfaces()) return opened;
+  if (opened.had_mesh || options.no_meshing || !has_surfaces()) return opened;
   start = std::chrono::steady_clock::now();
   const std::vector<std::string> warnings = mesh_surfaces();
   opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());

@@ -26,10 +26,17 @@ struct OpenedModel {
   double open_seconds = 0, mesh_seconds = 0;
 };
 
+/// How to open.
+struct OpenOptions {
+  std::vector<std::string> merged;  ///< further files, merged after the first and before anything is meshed
+  bool no_meshing = false;          ///< surfaces without elements stay so
+  bool ignore_periodicity = false;  ///< of the file
+};
+
 /// Opens a file with Gmsh and, if its surfaces have no elements yet, meshes them: curves with an even number of
 /// segments first, so that surfaces can become quads without a triangle left; then surfaces with triangles.
 /// Surfaces that the script wants transfinite or extruded *and* recombined come as quads.
 /// \throws InputError with Gmsh's own words if the file cannot be opened, understood, or meshed.
-OpenedModel open_model(const std::string& path);
+OpenedModel open_model(const std::string& path, const OpenOptions& options = {});
 
 }  // namespace qmorph::adapter

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "gmsh/high_order.hpp"
 #include "gmsh/orientation.hpp"
 #include "qmorph/error.hpp"
 
@@ -24,30 +25,22 @@ struct Elements {
   std::vector<std::size_t> quad_tags;
 };
 
-void refuse_other_types(const EntityMesh& entity) {
-  for (const ElementBlock& block : entity.blocks)
-    if (block.type != kTriangle3 && block.type != kQuad4)
-      throw SurfaceError(fmt::format(
-          "it has elements with {} nodes, and only linear triangles and quads can be converted; mesh it with "
-          "Mesh.ElementOrder = 1 and raise the order afterwards",
-          block.nodes_per_element));
-}
-
 template <std::size_t N>
 std::vector<std::array<Index, N>> read_corners(const ModelMesh& mesh, const ElementBlock& block) {
   std::vector<std::array<Index, N>> elements(block.tags.size());
   for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+    const std::size_t e = i / block.nodes_per_element, k = i % block.nodes_per_element;
     const Index row = mesh.rows.find(block.nodes[i]);
     if (row == kNone)
       throw SurfaceError(
-          fmt::format("element {} uses node {}, which the mesh does not have", block.tags[i / N], block.nodes[i]));
+          fmt::format("element {} uses node {}, which the mesh does not have", block.tags[e], block.nodes[i]));
     if (!mesh.points[row].allFinite())
       throw SurfaceError(
           fmt::format("{} is nowhere: its coordinates are not finite numbers", describe_node(mesh, row)));
     if (mesh.points[row].cwiseAbs().maxCoeff() > kLargestCoordinate)
       throw SurfaceError(fmt::format("{} is too far away to compute with; scale the mesh (Mesh.ScalingFactor)",
                                      describe_node(mesh, row)));
-    elements[i / N][i % N] = row;
+    if (k < N) elements[e][k] = row;
   }
   return elements;
 }
@@ -64,13 +57,13 @@ void refuse_repeated_corners(const ModelMesh& mesh, const ElementBlock& block,
 }
 
 Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
-  refuse_other_types(entity);
+  order_of(entity);  // refuses what is neither triangle nor quad
   Elements elements;
-  if (const ElementBlock* block = entity.block(kTriangle3)) {
+  if (const ElementBlock* block = entity.polygons(3)) {
     elements.triangles = read_corners<3>(mesh, *block);
     refuse_repeated_corners(mesh, *block, elements.triangles);
   }
-  if (const ElementBlock* block = entity.block(kQuad4)) {
+  if (const ElementBlock* block = entity.polygons(4)) {
     elements.quads = read_corners<4>(mesh, *block);
     refuse_repeated_corners(mesh, *block, elements.quads);
     elements.quad_tags = block->tags;
@@ -82,10 +75,10 @@ Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
 void refuse_volume(const ModelMesh& mesh, const NodeUse& use, const Elements& elements) {
   for (const auto& triangle : elements.triangles)
     if (use.volume[triangle[0]] && use.volume[triangle[1]] && use.volume[triangle[2]])
-      throw SurfaceError(
-          fmt::format("it bounds a volume that is meshed already (at {}); convert the surfaces "
-                      "first, and mesh the volume afterwards",
-                      describe_node(mesh, triangle[0])));
+      throw SurfaceError(fmt::format(
+          "it bounds a volume that is meshed already (at {}), whose tetrahedra fit triangles only; --drop-volumes "
+          "removes them, and -3 meshes volumes of a geometry on the quads",
+          describe_node(mesh, triangle[0])));
 }
 
 /// Numbers rows 0, 1, 2, ... in the order in which they come.
@@ -227,8 +220,7 @@ FixedEdges::FixedEdges(const ModelMesh& mesh, const NodeUse& use) {
     const EntityMesh& entity = mesh.entities[e];
     if (entity.dim != 1 && entity.dim != 2) continue;
     for (const ElementBlock& block : entity.blocks) {
-      // The corners of a line element come first, whatever its order; surfaces of higher order are refused elsewhere.
-      const std::size_t corners = entity.dim == 1 ? 2 : block.nodes_per_element;
+      const std::size_t corners = block.corners;
       for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element)
         for (std::size_t k = 0; k < (entity.dim == 1 ? 1 : corners); ++k) {
           const Index a = mesh.rows.find(block.nodes[i + k]);
@@ -261,11 +253,11 @@ std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mes
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
     if (mesh.entities[e].dim != 2) continue;
     for (const ElementBlock& block : mesh.entities[e].blocks) {
-      if (block.type != kTriangle3 && block.type != kQuad4) continue;
+      if (block.corners != 3 && block.corners != 4) continue;
       for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
         Corners corners{{kNone, kNone, kNone, kNone}, e};
         bool common = true;
-        for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
+        for (std::size_t k = 0; k < block.corners; ++k) {
           corners.rows[k] = mesh.rows.find(block.nodes[i + k]);
           common = common && corners.rows[k] != kNone && use.several[corners.rows[k]];
         }

@@ -50,7 +50,7 @@ std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mes
 
 /// Reads one surface: parts, constraints, fixed nodes. Triangles that are oriented against the others
 /// of their part are turned, with a warning.
-/// \throws SurfaceError if it has elements that are not linear triangles and quads, bounds a volume with elements,
+/// \throws SurfaceError if it has elements that are not triangles and quads of one order, bounds a volume with elements,
 ///         is not a manifold, has no orientation, has a node at no place (NaN), or refers to a
 ///         node that does not exist.
 /// `local` is scratch: as long as the mesh has nodes, all kNone before and after.

@@ -7,6 +7,7 @@
 
 #include "gmsh/check.hpp"
 #include "gmsh/compat.hpp"
+#include "gmsh/high_order.hpp"
 #include "gmsh/model_mesh.hpp"
 #include "gmsh/patches.hpp"
 #include "gmsh/replace.hpp"
@@ -91,13 +92,8 @@ std::vector<int> find_periodic(const ModelMesh& mesh) {
 /// Triangles and quads of an entity, of any order.
 std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
   std::size_t triangles = 0, quads = 0;
-  for (const ElementBlock& block : entity.blocks) {
-    std::string name;
-    int dim = 0, order = 0, nodes = 0, primary_nodes = 0;
-    std::vector<double> local;
-    ::gmsh::model::mesh::getElementProperties(block.type, name, dim, order, nodes, local, primary_nodes);
-    (primary_nodes == 4 ? quads : triangles) += block.tags.size();
-  }
+  if (const ElementBlock* block = entity.polygons(3)) triangles = block->tags.size();
+  if (const ElementBlock* block = entity.polygons(4)) quads = block->tags.size();
   return {triangles, quads};
 }
 
@@ -109,8 +105,8 @@ void refuse_bad_quads(const SurfaceMesh& surface) {
                                      part.quad_tags[bad.quad], bad.where));
 }
 
-/// What is done to a surface: its triangles are converted, or its quads improved as well.
-enum class Task { convert, improve };
+/// What is done to a surface: its triangles are converted, or its quads improved as well, or nothing.
+enum class Task { convert, improve, measure };
 
 /// The quads of a surface may change.
 void free_quads(SurfaceMesh& surface) {
@@ -162,7 +158,7 @@ void Run::visit(std::uint32_t entity) {
   std::tie(report.triangles_in, report.quads_in) = count_elements(mesh);
   report.triangles_out = report.triangles_in;
   report.quads_out = report.quads_in;
-  if (report.triangles_in == 0 && task_ == Task::convert) {
+  if (task_ == Task::measure || (report.triangles_in == 0 && task_ == Task::convert)) {
     measure_quads(entity, report);
   } else {
     try {
@@ -205,6 +201,10 @@ void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
     const QuadMesh& result = converted.results[p];
     if (const std::string defect = find_defect(patch, result, quads_are); !defect.empty())
       throw SurfaceError("the result is not valid: " + defect + "; this is a mistake of qmorph");
+    if (const std::string where =
+            find_bent_corner(model_.mesh, model_.mesh.entities[entity], converted.surface.parts[p], result);
+        !where.empty())
+      throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there");
     quality.add(result.points, result.triangles, result.quads, patch_normal(patch));
     triangles += result.triangles.size();
     quads += result.quads.size();
@@ -228,11 +228,12 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
   SurfaceMesh surface;
   try {
     surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
-  } catch (const SurfaceError&) {
+  } catch (const SurfaceError& error) {
+    report.reason = error.what();
     return;  // it stays as it is in any case, and there are no figures for it
   }
   try {
-    refuse_bad_quads(surface);
+    if (task_ == Task::convert) refuse_bad_quads(surface);
   } catch (const SurfaceError& error) {
     report.outcome = SurfaceOutcome::kLeft;
     report.reason = error.what();
@@ -289,6 +290,8 @@ std::size_t ModelReport::count(SurfaceOutcome outcome) const {
 ModelReport recombine(const std::vector<int>& surfaces, const Options& options) {
   return run(Task::convert, surfaces, options);
 }
+
+ModelReport measure(const std::vector<int>& surfaces) { return run(Task::measure, surfaces, {}); }
 
 ModelReport improve_quads(const std::vector<int>& surfaces, const Options& options) {
   return run(Task::improve, surfaces, options);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/high_order.hpp"
 #include "gmsh/session.hpp"
 #include "qmorph/error.hpp"
 
@@ -69,9 +70,9 @@ std::vector<std::size_t> all_element_tags(const ModelMesh& mesh) {
 std::vector<std::size_t> tags_of_removed(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
   std::vector<std::size_t> tags;
   for (const ConvertedSurface& converted : surfaces)
-    for (int type : {kTriangle3, kQuad4}) {
-      if (type == kQuad4 && !converted.surface.quads_may_go) continue;
-      if (const ElementBlock* block = mesh.entities[converted.surface.entity].block(type))
+    for (std::size_t corners : {3, 4}) {
+      if (corners == 4 && !converted.surface.quads_may_go) continue;
+      if (const ElementBlock* block = mesh.entities[converted.surface.entity].polygons(corners))
         tags.insert(tags.end(), block->tags.begin(), block->tags.end());
     }
   return tags;
@@ -97,7 +98,7 @@ std::vector<std::size_t> place_nodes(const ModelMesh& mesh, std::uint32_t owner,
 ElementBlock new_block(int type, std::size_t nodes_per_element) {
   ElementBlock block;
   block.type = type;
-  block.nodes_per_element = nodes_per_element;
+  block.nodes_per_element = block.corners = nodes_per_element;
   return block;
 }
 
@@ -106,6 +107,14 @@ void parametrise(EntityMesh& entity) {
   std::vector<double> uv;
   const StageLog log = run_logged([&] { ::gmsh::model::getParametrization(2, entity.tag, entity.xyz, uv); });
   if (log.errors.empty() && uv.size() == 2 * entity.node_tags.size()) entity.uv = std::move(uv);
+}
+
+/// Quads of order 2 have 8 nodes if others of the model have, and 9 if nothing speaks against it.
+bool wants_incomplete(const ModelMesh& mesh) {
+  for (const EntityMesh& entity : mesh.entities)
+    if (const ElementBlock* quads = entity.dim == 2 ? entity.polygons(4) : nullptr; quads && quads->order > 1)
+      return quads->nodes_per_element == 4 * static_cast<std::size_t>(quads->order);
+  return get_option("Mesh.SecondOrderIncomplete") != 0;
 }
 
 EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted, TagPool& node_tags,
@@ -134,6 +143,7 @@ EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted,
       if (tag == 0) tag = element_tags.next();
     if (!block->tags.empty()) entity.blocks.push_back(std::move(*block));
   }
+  if (order_of(before) > 1) raise_order(mesh, before, wants_incomplete(mesh), entity, [&] { return node_tags.next(); });
   if (!before.uv.empty()) parametrise(entity);
   return entity;
 }

@@ -40,6 +40,16 @@ std::string surface_line(const SurfaceReport& surface) {
                             figures(surface.quality));
 }
 
+std::string check_line(const ModelReport& model) {
+  std::size_t triangles = 0, quads = 0;
+  for (const SurfaceReport& surface : model.surfaces) {
+    triangles += surface.triangles_in;
+    quads += surface.quads_in;
+  }
+  return fmt::format("{} on {}; {}", elements(triangles, quads), counted(model.surfaces.size(), "surface"),
+                     figures(model.total));
+}
+
 std::string total_line(const ModelReport& model, const std::string& output, double seconds) {
   std::size_t triangles_in = 0, quads_in = 0, triangles_out = 0, quads_out = 0;
   for (const SurfaceReport& surface : model.surfaces) {

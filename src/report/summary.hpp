@@ -10,6 +10,9 @@ namespace qmorph::report {
 /// `surface 3 "steel": 4380 triangles -> 2190 quads; scaled Jacobian min 0.478 mean 0.912; irregular 3.9 %`
 std::string surface_line(const SurfaceReport& surface);
 
+/// Of a mesh that was measured: `4380 quads on 3 surfaces; scaled Jacobian min 0.478 mean 0.912; irregular 3.9 %`
+std::string check_line(const ModelReport& model);
+
 /// The same for the model, with the seconds of the whole run and the file that it is in now.
 std::string total_line(const ModelReport& model, const std::string& output, double seconds);
 

@@ -66,10 +66,10 @@ TEST_CASE("request: what makes no sense is named") {
     const char* message;
   } kCases[] = {
       {{}, "which file?"},
-      {{"a.geo", "b.geo"}, "b.geo"},
       {{"a.geo", "-frobnicate"}, "unknown option '-frobnicate'"},
       {{"a.geo", "--frobnicate=3"}, "unknown option '--frobnicate'"},
-      {{"a.geo", "-3"}, "unknown option '-3'"},
+      {{"a.geo", "-4"}, "unknown option '-4'"},
+      {{"a.geo", "-1"}, "-1: not here; quads need surfaces"},
       {{"a.geo", "-clmax"}, "'-clmax' needs 1 value"},
       {{"a.geo", "-setnumber", "x"}, "'-setnumber' needs 2 values"},
       {{"a.geo", "-clmax", "abc"}, "-clmax: 'abc' is not a positive number"},

@@ -122,27 +122,19 @@ TEST_CASE("refused: a surface that is not planar") {
   check_left(mixed, "planar");
 }
 
-TEST_CASE("refused: second order") {
+TEST_CASE("refused: a surface that bounds tetrahedra") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, [] {
-    build_two_squares();
-    ::gmsh::model::mesh::setOrder(2);
+    ::gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.4);
+    ::gmsh::model::mesh::generate(3);
   });
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CHECK(result.status == 3);
-  CHECK(mentions(result.err, "it has elements with 6 nodes, and only linear triangles and quads can be converted"));
-  CHECK(mentions(result.err, "Mesh.ElementOrder = 1"));
+  CHECK(mentions(result.err, "it bounds a volume that is meshed already"));
+  CHECK(mentions(result.err, "--drop-volumes"));
   CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
-}
-
-TEST_CASE("refused: second order asked for in a script, before anything is meshed") {
-  const TemporaryDirectory directory;
-  write_file(directory / "in.geo",
-             "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.ElementOrder = 2;\n");
-  const Result result = run_qmorph({directory / "in.geo"});
-  CHECK(result.status == 2);
-  CHECK(mentions(result.err, "Mesh.ElementOrder is 2, and only linear meshes"));
-  CHECK(directory.files() == std::vector<std::string>{"in.geo"});
 }
 
 TEST_CASE("refused: periodic surfaces; their neighbours are converted and the pair is kept") {

@@ -49,11 +49,18 @@ std::vector<std::pair<std::size_t, std::vector<Key>>> element_keys(const ModelMe
   return elements;
 }
 
-/// Sides of one element only, as sets of two corners.
+/// Sides of one element only, as sets of the two corners and what lies between them.
 std::set<std::set<Key>> boundary(const ModelMesh& mesh, const EntityMesh& entity, Compare compare) {
   std::map<std::set<Key>, int> count;
-  for (const auto& [tag, corners] : element_keys(mesh, entity, compare))
-    for (std::size_t k = 0; k < corners.size(); ++k) ++count[{corners[k], corners[(k + 1) % corners.size()]}];
+  for (const adapter::ElementBlock& block : entity.blocks)
+    for (std::size_t e = 0; e < block.tags.size(); ++e)
+      for (std::size_t k = 0; k < block.corners; ++k) {
+        const std::size_t* nodes = block.nodes.data() + e * block.nodes_per_element;
+        std::set<Key> side = {key(mesh, nodes[k], compare), key(mesh, nodes[(k + 1) % block.corners], compare)};
+        const std::size_t inner = static_cast<std::size_t>(block.order) - 1, first = block.corners + k * inner;
+        for (std::size_t i = first; i < first + inner; ++i) side.insert(key(mesh, nodes[i], compare));
+        ++count[side];
+      }
   std::set<std::set<Key>> edges;
   for (const auto& [edge, uses] : count)
     if (uses == 1) edges.insert(edge);

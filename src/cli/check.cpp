@@ -1,0 +1,29 @@
+#include "cli/check.hpp"
+
+#include <fmt/format.h>
+
+namespace qmorph::cli {
+
+std::vector<std::string> find_reasons(const ModelReport& model, const Thresholds& thresholds) {
+  std::vector<std::string> reasons;
+  for (const SurfaceReport& surface : model.surfaces) {
+    const Quality& q = surface.quality;
+    const auto say = [&](const std::string& what) {
+      reasons.push_back(fmt::format("surface {}: {}", surface.tag, what));
+    };
+    if (!surface.reason.empty()) say(surface.reason);
+    if (q.inverted) say(fmt::format("{} inverted or not convex", q.inverted));
+    if (q.quads && !q.inverted && q.scaled_jacobian_min <= thresholds.min_scaled_jacobian)
+      say(fmt::format("scaled Jacobian {:.3f}, and more than {:g} is asked for", q.scaled_jacobian_min,
+                      thresholds.min_scaled_jacobian));
+    if (thresholds.no_triangles && surface.triangles_in)
+      say(fmt::format("{} triangle{}, and none is allowed", surface.triangles_in,
+                      surface.triangles_in == 1 ? "" : "s"));
+  }
+  if (model.total.irregular_share() > thresholds.max_irregular)
+    reasons.push_back(fmt::format("irregular share of interior nodes {:.3f}, and at most {:g} is asked for",
+                                  model.total.irregular_share(), thresholds.max_irregular));
+  return reasons;
+}
+
+}  // namespace qmorph::cli

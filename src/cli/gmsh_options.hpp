@@ -1,0 +1,33 @@
+#pragma once
+/// The options of the gmsh program, and what they mean to this one.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace qmorph::cli {
+
+enum class GmshOption {
+  kPassed,   ///< Gmsh's own code takes it, with its values
+  kNothing,  ///< has no effect in Gmsh's batch mode either, or what it asks for is what this program does
+  kRefused,  ///< asks for something else
+};
+
+struct GmshOptionRow {
+  std::string_view name;  ///< without dash
+  int values;             ///< words that follow; -1: a number that says how many, after a name
+  GmshOption kind;
+  std::string_view note;  ///< kPassed: what the values are ("positive", "number", "algorithm", "text"); kRefused: why
+};
+
+/// \return null if the gmsh program has no such option
+const GmshOptionRow* find_gmsh_option(std::string_view name);
+
+/// Checks what Gmsh would only complain about, or take for 0 without a word.
+/// \throws UsageError
+void check_gmsh_values(const GmshOptionRow& row, const std::vector<std::string>& values);
+
+/// All that are passed on, for the help: "-clextend, -clcurv, ..."
+std::string passed_gmsh_options();
+
+}  // namespace qmorph::cli

@@ -1,0 +1,57 @@
+#pragma once
+/// What the programs that read our meshes ask for, and a mesh in their terms.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace qmorph::adapter {
+
+/// One reader (--for NAME). Sources: the readers' own code and issues, as of November 2026.
+struct Consumer {
+  std::string_view name;
+  std::string_view title;   ///< as its users call it
+  std::string_view format;  ///< "msh2" (ASCII), "inp" or "su2"
+  int max_order = 1;
+  bool wants_incomplete = false;  ///< 8 nodes for order 2
+  bool only_quads = false;        ///< a triangle in it cannot be read, or is read and then spoils the computation
+  bool needs_volumes = false;     ///< reads cells of dimension 3 only
+  bool inner_lines = true;        ///< takes line elements between two surface elements
+  bool needs_surface_groups = false;
+  bool needs_curve_groups = false;
+  bool right_handed = false;  ///< planar meshes must be counterclockwise; they are turned
+};
+
+/// \throws UsageError that lists the names
+const Consumer& find_consumer(const std::string& name);
+
+/// An element of what is written.
+struct ConsumerElement {
+  int dim = 0, type = 0;  ///< Gmsh's number of the type
+  int entity = 0;
+  std::vector<int> groups;         ///< physical ones
+  std::vector<std::size_t> nodes;  ///< from 1
+};
+
+/// The mesh as the reader gets it: numbers from 1 without gaps, no node that nothing uses.
+struct ConsumerMesh {
+  std::vector<Eigen::Vector3d> nodes;
+  std::vector<ConsumerElement> elements;  ///< points, lines, surfaces, volumes
+  std::vector<std::string> complaints;    ///< why the reader would not take it
+};
+
+/// Collects the current model for a reader.
+/// \param everything also what is in no physical group although there are groups
+ConsumerMesh collect_for(const Consumer& consumer, bool everything);
+
+/// Writes MSH 2.2 in ASCII. \throws OutputError
+void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const std::string& path);
+
+/// Writes a deck with nodes, elements of the dimension of the mesh, and sets of both for each physical group. Elements
+/// are for plane stress (CPS4, CPS8); lines are sets of nodes and no elements, which would be trusses.
+/// \throws OutputError
+void write_inp_for(const ConsumerMesh& mesh, const std::string& path);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,65 @@
+/// --check judges a mesh and writes nothing.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "gmsh/support.hpp"
+
+using namespace qmorph::test;
+
+namespace {
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("check: a mesh that is good enough has status 0 and one line") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n");
+  REQUIRE(run_qmorph({directory / "in.geo"}).status == 0);
+  const Result result =
+      run_qmorph({"--check", directory / "in.msh", "--min-sj", "0.2", "--max-irregular=0.5", "--no-triangles"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  CHECK(mentions(result.out, " quads on 1 surface; scaled Jacobian min "));
+  CHECK(std::count(result.out.begin(), result.out.end(), '\n') == 1);
+  CHECK(result.err.empty());
+  CHECK(run_qmorph({"--check", directory / "in.msh", "-v", "0"}).out.empty());
+  CHECK(directory.files() == std::vector<std::string>{"in.geo", "in.msh"});
+}
+
+TEST_CASE("check: a line for each reason, and status 6") {
+  const TemporaryDirectory directory;
+  const std::vector<std::array<double, 3>> nodes = {{0, 0, 0}, {2, 0, 0}, {2, 0.2, 0},   {1, 1, 0}, {0, 1, 0},
+                                                    {5, 0, 0}, {6, 0, 0}, {5.1, 0.1, 0}, {5, 1, 0}};
+  write_file(directory / "in.msh", msh22(nodes, {"3 2 0 1 1 2 3 4", "2 2 0 1 1 4 5", "3 2 0 2 6 7 8 9"}));
+  const Result lenient = run_qmorph({"--check", directory / "in.msh"});
+  CHECK(lenient.status == 6);
+  CHECK(lenient.err == "qmorph: surface 2: 1 inverted or not convex\n");
+  const Result strict = run_qmorph({"--check", directory / "in.msh", "--min-sj", "0.9", "--no-triangles"});
+  CAPTURE(strict.err);
+  CHECK(strict.status == 6);
+  CHECK(mentions(strict.err, "qmorph: surface 1: scaled Jacobian 0."));
+  CHECK(mentions(strict.err, "and more than 0.9 is asked for\n"));
+  CHECK(mentions(strict.err, "qmorph: surface 1: 1 triangle, and none is allowed\n"));
+}
+
+TEST_CASE("check: a surface that three elements share an edge of is no good mesh") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
+                                         {"2 2 0 1 1 2 3", "2 2 0 1 1 2 4", "2 2 0 1 1 2 5"}));
+  const Result result = run_qmorph({"--check", directory / "in.msh"});
+  CHECK(result.status == 6);
+  CHECK(mentions(result.err, "surface 1: it is not a manifold"));
+}
+
+TEST_CASE("check: files that are none") {
+  const TemporaryDirectory directory;
+  CHECK(run_qmorph({"--check", directory / "none.msh"}).status == 2);
+  write_file(directory / "in.geo", "Point(1) = {0, 0, 0, 1};\n");
+  CHECK(run_qmorph({"--check", directory / "in.geo"}).status == 2);
+  CHECK(run_qmorph({directory / "in.geo", "--min-sj", "0.2"}).status == 1);
+}

@@ -1,0 +1,153 @@
+/// --for: what each reader needs, and what is said when it cannot have it.
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/support.hpp"
+
+using namespace qmorph::test;
+
+namespace {
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A square with an inner curve "inner", a boundary curve "bottom" and a surface "plate".
+std::string square(const std::string& more = {}) {
+  return "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nPoint(10) = {0.3, 0.5, 0};\n"
+         "Point(11) = {0.7, 0.5, 0};\nLine(10) = {10, 11};\nCurve{10} In Surface{1};\nMesh.MeshSizeMax = 0.2;\n"
+         "Physical Surface(\"plate\", 1) = {1};\nPhysical Curve(\"bottom\", 2) = {1};\n"
+         "Physical Curve(\"inner\", 3) = {10};\n" +
+         more;
+}
+
+std::vector<std::vector<int>> elements_of(const std::string& msh2) {
+  std::istringstream in(msh2.substr(msh2.find("$Elements")));
+  std::vector<std::vector<int>> elements;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::vector<int> element;
+    for (int word; words >> word;) element.push_back(word);
+    if (element.size() > 4) elements.push_back(element);
+  }
+  return elements;
+}
+
+struct Run {
+  TemporaryDirectory directory;
+  Result result;
+  std::string text;
+  Run(const std::string& reader, const std::string& script, std::vector<std::string> words = {}) {
+    const std::string out = directory / (reader == "su2"                              ? "out.su2"
+                                         : reader == "calculix" || reader == "abaqus" ? "out.inp"
+                                                                                      : "out.msh");
+    write_file(directory / "in.geo", script);
+    words.insert(words.end(), {directory / "in.geo", "-o", out, "--for", reader});
+    result = run_qmorph(words);
+    if (result.status == 0) text = read_file(out);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("consumers: MSH 2.2 in ASCII with numbers from 1, one group for each element") {
+  for (const char* reader : {"dealii", "mfem", "dolfinx", "elmer", "specfem2d"}) {
+    CAPTURE(reader);
+    const Run run(reader, square());
+    CAPTURE(run.result.err);
+    REQUIRE(run.result.status == 0);
+    CHECK(run.text.substr(0, 20) == "$MeshFormat\n2.2 0 8\n");
+    int number = 0, largest = 0;
+    std::set<int> nodes;
+    for (const auto& element : elements_of(run.text)) {
+      CHECK(element[0] == ++number);
+      CHECK(element[2] == 2);
+      CHECK(element[3] > 0);
+      for (std::size_t i = 5; i < element.size(); ++i) nodes.insert(element[i]);
+    }
+    largest = *nodes.rbegin();
+    CHECK(*nodes.begin() == 1);
+    CHECK(nodes.size() == static_cast<std::size_t>(largest));
+    CHECK(mentions(run.text, "$Nodes\n" + std::to_string(largest) + "\n"));
+  }
+}
+
+TEST_CASE("consumers: lines inside are kept for those that take them, and left out for deal.II") {
+  const auto count_inner = [](const Run& run) {
+    int count = 0;
+    for (const auto& element : elements_of(run.text)) count += element[1] == 1 && element[3] == 3;
+    return count;
+  };
+  CHECK(count_inner(Run("dealii", square())) == 0);
+  CHECK(count_inner(Run("elmer", square())) > 0);
+}
+
+TEST_CASE("consumers: what a reader would not take is said in its terms, and nothing is written") {
+  const std::string twice = "Physical Surface(\"all\", 9) = {1};\n";
+  const std::string none = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
+  const struct {
+    const char* reader;
+    std::string script;
+    std::vector<std::string> words;
+    const char* message;
+  } kCases[] = {
+      {"dealii", square(twice), {}, "surface 1 is in 2 physical groups, and deal.II takes one for each element"},
+      {"dealii", square(), {"-order", "2"}, "its elements are of order 2, and deal.II takes order 1 at most"},
+      {"dolfinx", none, {}, "surface 1 is in no physical group, and DOLFINx wants every cell tagged"},
+      {"openfoam", square(), {}, "there are no cells of dimension 3, and gmshToFoam reads no others"},
+      {"su2", none, {}, "no curve is in a physical group, and SU2 would have no marker"},
+  };
+  for (const auto& the_case : kCases) {
+    CAPTURE(the_case.message);
+    const Run run(the_case.reader, the_case.script, the_case.words);
+    CAPTURE(run.result.err);
+    CHECK(run.result.status == 6);
+    CHECK(mentions(run.result.err, the_case.message));
+    CHECK(run.directory.files() == std::vector<std::string>{"in.geo"});
+  }
+  const Run unknown("fluent", none);
+  CHECK(unknown.result.status == 1);
+  CHECK(mentions(unknown.result.err, "there is no reader 'fluent' (dealii, mfem, "));
+}
+
+TEST_CASE("consumers: a triangle that is left is said to those who want quads") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {"2 2 1 1 1 2 3"}));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--for", "dealii"});
+  CHECK(result.status == 6);
+  CHECK(mentions(result.err, "1 triangle is left, and deal.II wants quads alone"));
+}
+
+TEST_CASE("consumers: a deck has plane-stress quads and sets, and no trusses") {
+  for (const char* order : {"1", "2"}) {
+    CAPTURE(order);
+    const Run run("calculix", square(), {"-order", order});
+    CAPTURE(run.result.err);
+    REQUIRE(run.result.status == 0);
+    CHECK(mentions(run.text, std::string("*ELEMENT, TYPE=CPS") + (*order == '1' ? "4" : "8") + ", ELSET=Surface1\n"));
+    CHECK(!mentions(run.text, "T3D2"));
+    for (const char* set : {"*ELSET, ELSET=plate\n", "*NSET, NSET=bottom\n", "*NSET, NSET=inner\n"})
+      CHECK(mentions(run.text, set));
+  }
+}
+
+TEST_CASE("consumers: clockwise surfaces are turned for readers that want them counterclockwise") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh",
+             msh22({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {"2 2 1 1 1 3 2", "2 2 1 1 1 4 3"}));
+  const auto area = [&](const char* reader) {
+    REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--for", reader}).status == 0);
+    const Snapshot after = read_snapshot(directory / "out.msh");
+    const auto* quads = after.mesh.entities.front().block(qmorph::adapter::kQuad4);
+    REQUIRE(quads);
+    const auto p = [&](std::size_t i) { return after.mesh.points[after.mesh.rows.find(quads->nodes[i])]; };
+    return (p(1) - p(0)).cross(p(2) - p(0)).z();
+  };
+  CHECK(area("mfem") > 0);
+  CHECK(area("elmer") < 0);
+}
