@@ -1,0 +1,34 @@
+#pragma once
+/// Which sides to split so that every region gets an even number of them: a T-join.
+///
+/// A region can be made of quads alone if its boundary has an even number of sides. To split an edge of the mesh that two
+/// regions share changes the parity of both; an edge of the outside changes that of one. So regions are the nodes of a
+/// graph, shared edges its links, and a set of links that meets exactly the odd regions an odd number of times is what is
+/// wanted; the outside takes any number. The cheapest such set consists of paths that pair the odd regions
+/// [J. Edmonds, E. Johnson, Matching, Euler tours and the Chinese postman, 1973].
+
+#include <vector>
+
+#include "qmorph/index.hpp"
+
+namespace qmorph::parity {
+
+/// The outside, as a region.
+inline constexpr Index kOutside = kNone;
+
+/// An edge of the mesh that may get a node.
+struct Link {
+  Index a = kOutside, b = kOutside;  ///< the regions on its two sides
+  double length = 0;
+};
+
+struct Plan {
+  std::vector<Index> splits;    ///< links to split, in order
+  std::vector<Index> odd_left;  ///< regions that stay odd because too few links lead to them
+};
+
+/// The fewest splits, and of those with as few the ones on the longest edges. As many regions become even as the links
+/// allow. Exact. Cost: (odd regions) * (links) * log, and the matching of the odd regions.
+Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links);
+
+}  // namespace qmorph::parity
