@@ -2,6 +2,7 @@
 /// The door for programs that already run the Gmsh API: the stand-in for `gmsh::model::mesh::recombine()`.
 /// Mentions no Gmsh type; link `qmorph_gmsh`.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -64,5 +65,27 @@ ModelReport improve_quads(const std::vector<int>& surfaces = {}, const Options& 
 /// Figures of surfaces as they are; nothing changes. Surfaces come out as kAlreadyQuads, whatever they consist of, those
 /// that have no figures (not a manifold, no orientation) with a reason.
 ModelReport measure(const std::vector<int>& surfaces = {});
+
+/// An edge of the mesh that got a node in its middle.
+struct SplitEdge {
+  int curve = 0;              ///< 0 if it lies on none
+  std::vector<int> surfaces;  ///< one, or two that share it
+  Eigen::Vector3d where = Eigen::Vector3d::Zero();
+};
+
+/// What `make_even()` did.
+struct EvenReport {
+  std::size_t odd_regions = 0;    ///< with an odd number of sides, before
+  std::vector<SplitEdge> splits;  ///< the fewest that do, on the longest edges
+  std::vector<int> odd_surfaces;  ///< where a region stays odd, since no edge that may be split leads there; sorted
+};
+
+/// Splits edges of curves, and the triangles beside them, so that every region (see `convert()`) gets an even number of
+/// sides: `recombine()` leaves no triangle then. It is the only call that changes curves. Existing nodes stay.
+/// \param surfaces as for `recombine()`; others, and edges that they share, stay as they are
+/// \param keep_curves tags of curves that get no node
+/// \throws UsageError for a surface or a curve that the model does not have; InputError as `recombine()` does, and for
+///         models with periodic surfaces. The model is unchanged then.
+EvenReport make_even(const std::vector<int>& surfaces = {}, const std::vector<int>& keep_curves = {});
 
 }  // namespace qmorph

@@ -43,6 +43,9 @@ constexpr std::array kRows = {
     Row{"v", "-v N", 1, "0: errors only, 1: and the summary, 2 and more: and Gmsh's warnings (default 5)"},
     Row{"surfaces", "--surfaces T,T,...", 1, "convert the surfaces with these tags only"},
     Row{"drop-volumes", "--drop-volumes", 0, "remove volume elements, so that their surfaces may become quads"},
+    Row{"all-quad", "--all-quad", 0,
+        "no triangle at all: where a boundary is odd, as few curve segments as possible get a node"},
+    Row{"keep-curves", "--keep-curves T,...", 1, "curves with these tags get none"},
     Row{"cleanup-only", "--cleanup-only", 0,
         "improve quads, by Gmsh or anyone, that are there already; triangles among them are paired"},
     Row{"for", "--for READER", 1,
@@ -237,6 +240,8 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
   std::vector<std::string> surfaces;
   app.add_option("--surfaces", surfaces)->delimiter(',')->allow_extra_args(false);
+  app.add_flag("--all-quad", request.all_quad);
+  app.add_option("--keep-curves", request.keep_curves)->delimiter(',')->allow_extra_args(false);
   app.add_flag("--cleanup-only", request.cleanup_only);
   app.add_option("--stats", request.stats);
   app.add_option("--set", request.settings)->allow_extra_args(false);
@@ -255,6 +260,10 @@ Request parse(const std::vector<std::string>& arguments) {
   if (volumes) request.dimension = 3;
   if (!request.check && (*min_sj || *irregular || *no_triangles))
     throw UsageError("--min-sj, --max-irregular and --no-triangles go with --check");
+  if (request.all_quad && request.cleanup_only)
+    throw UsageError("--all-quad is for the conversion of triangles; --cleanup-only takes curves as they are");
+  if (!request.keep_curves.empty() && !request.all_quad)
+    throw UsageError("--keep-curves means nothing without --all-quad");
   if (binary) request.binary = true;
   for (const std::string& tag : surfaces) request.surfaces.push_back(surface_tag(tag));
   return request;

@@ -25,6 +25,8 @@ struct Request {
   int verbosity = 0;
   bool help = false, version = false;
   bool cleanup_only = false;  ///< improve the quads that are there
+  bool all_quad = false;      ///< curves may get nodes so that no triangle is left
+  std::vector<int> keep_curves;
   bool check = false;         ///< judge the mesh, write nothing
   bool no_meshing = false;    ///< -save: what has no elements gets none
   bool drop_volumes = false;

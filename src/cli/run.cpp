@@ -187,6 +187,7 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
       for (const std::string& warning : surface.warnings)
         err << "warning: surface " << surface.tag << ": " << warning << '\n';
     }
+    if (facts.even) err << report::even_line(*facts.even) << '\n';
     err << report::total_line(model, facts.output, facts.total_seconds) << '\n';
   }
   print_outcome(model, facts.output, err);
@@ -270,6 +271,8 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
   options.measure_stages = !request.stats.empty();
+  std::optional<EvenReport> even;
+  if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
   const ModelReport model =
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   if (model.surfaces.empty()) {
@@ -285,7 +288,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   }
   adapter::StagedFile file = adapter::stage(plan);
   const bool written = write(request, plan, opened, model, file);
-  report::RunFacts facts{request.input, plan.path, arguments, status_of(model)};
+  report::RunFacts facts{request.input, plan.path, arguments, status_of(model), even};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);

@@ -80,6 +80,15 @@ Json engine_json(const ConversionStats& s) {
           {"stages", stages_json(s.stages)}};
 }
 
+Json even_json(const EvenReport& even) {
+  Json json = {{"odd_regions", even.odd_regions}, {"splits", Json::array()}, {"odd_surfaces", even.odd_surfaces}};
+  for (const SplitEdge& split : even.splits)
+    json["splits"].push_back({{"curve", split.curve},
+                              {"surfaces", split.surfaces},
+                              {"where", {split.where.x(), split.where.y(), split.where.z()}}});
+  return json;
+}
+
 /// Of the surfaces that were converted.
 ConversionStats sum_stats(const ModelReport& model) {
   ConversionStats sum;
@@ -134,6 +143,7 @@ std::string stats_json(const ModelReport& model, const RunFacts& facts) {
   const ConversionStats sum = sum_stats(model);
   json["size_ratio"] = size_json(sum.size_ratios);
   json["stages"] = stages_json(sum.stages);
+  if (facts.even) json["all_quad"] = even_json(*facts.even);
   json["surfaces"] = Json::array();
   for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,6 +1,7 @@
 #pragma once
 /// What came out, for programs: the file of --stats.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@ struct RunFacts {
   std::string input, output;
   std::vector<std::string> arguments;  ///< of the command line
   int exit_status = 0;
+  std::optional<EvenReport> even;  ///< of --all-quad
   double open_seconds = 0, mesh_seconds = 0, write_seconds = 0, total_seconds = 0;
 };
 

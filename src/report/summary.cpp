@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <string>
+#include <vector>
+
 namespace qmorph::report {
 namespace {
 
@@ -60,6 +64,23 @@ std::string total_line(const ModelReport& model, const std::string& output, doub
   }
   return fmt::format("total: {} -> {}; {}; {:.2f} s; {}", elements(triangles_in, quads_in),
                      elements(triangles_out, quads_out), figures(model.total), seconds, output);
+}
+
+std::string even_line(const EvenReport& even) {
+  std::map<int, std::size_t> count;
+  for (const SplitEdge& split : even.splits) ++count[split.curve];
+  std::vector<std::string> curves;
+  for (const auto& [curve, splits] : count)
+    curves.push_back((curve ? std::to_string(curve) : "none") + (splits > 1 ? fmt::format(" ({})", splits) : ""));
+  const std::size_t splits = even.splits.size();
+  std::string line = splits == 0
+                         ? "--all-quad: no segment had to be split"
+                         : fmt::format("--all-quad: {} segment{} got a node, on curve{} {}", splits,
+                                       splits == 1 ? "" : "s", curves.size() == 1 ? "" : "s", fmt::join(curves, ", "));
+  if (!even.odd_surfaces.empty())
+    line += fmt::format("; no way to make surface{} {} even", even.odd_surfaces.size() == 1 ? "" : "s",
+                        fmt::join(even.odd_surfaces, ", "));
+  return line;
 }
 
 }  // namespace qmorph::report
