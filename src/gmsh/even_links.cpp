@@ -15,6 +15,7 @@ struct Side {
   Index low, high;
   std::uint32_t surface;
   Index triangle;  ///< numbered through all surfaces that are converted; kNone for any other element
+  bool may_split;  ///< of a linear triangle
 };
 
 int corners_of(int type) {
@@ -32,13 +33,13 @@ std::vector<Side> sorted_sides(const ModelMesh& mesh, const std::vector<std::uin
     if (mesh.entities[e].dim != 2) continue;
     const bool converted = std::binary_search(surfaces.begin(), surfaces.end(), e);
     for (const ElementBlock& block : mesh.entities[e].blocks) {
-      const bool counts = converted && block.type == kTriangle3;
       const auto corners = std::size_t(corners_of(block.type));
+      const bool counts = converted && corners == 3;
       for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element) {
         for (std::size_t k = 0; k < corners; ++k) {
           const Index a = mesh.rows.find(block.nodes[i + k]), b = mesh.rows.find(block.nodes[i + (k + 1) % corners]);
           if (a != kNone && b != kNone)
-            sides.push_back({std::min(a, b), std::max(a, b), e, counts ? triangles : kNone});
+            sides.push_back({std::min(a, b), std::max(a, b), e, counts ? triangles : kNone, block.type == kTriangle3});
         }
         triangles += counts;
       }
@@ -149,10 +150,8 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
     bool may_split = last - first <= 2;
     std::vector<Index> beside;
     for (std::size_t i = first; i < last; ++i) {
-      if (sides[i].triangle == kNone) {
-        may_split = false;
-        continue;
-      }
+      may_split = may_split && sides[i].triangle != kNone && sides[i].may_split;
+      if (sides[i].triangle == kNone) continue;
       beside.push_back(region_of(sides[i]));
       graph.odd[beside.back()] = !graph.odd[beside.back()];
     }

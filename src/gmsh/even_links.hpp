@@ -23,7 +23,7 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b);
 
 /// \param surfaces indices of the surfaces to be converted
 /// \param keep_curves tags of curves that get no node
-/// Edges get no node, besides, if an element beside them is not a triangle of these surfaces, if more than two elements or a
+/// Edges get no node, besides, if an element beside them is not a linear triangle of these surfaces, if more than two elements or a
 /// volume use them, if a line element on them is not linear, or if their curve is periodic.
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves);

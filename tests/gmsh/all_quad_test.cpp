@@ -197,6 +197,19 @@ TEST_CASE("--all-quad: surfaces of a file without line elements share the node o
   CHECK(outcome.report["all_quad"]["splits"][0]["where"] == json{1.0, 0.7, 0.0});
 }
 
+TEST_CASE("--all-quad: curves of second order get no node, and that is said") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", two_squares(4));
+  make_msh(directory / "in.msh", 4.1, false, [&] {
+    ::gmsh::merge(directory / "in.geo");
+    ::gmsh::model::mesh::generate(2);
+    ::gmsh::model::mesh::setOrder(2);
+  });
+  const Outcome outcome = run_all_quad(directory);
+  CHECK(outcome.report["all_quad"]["odd_surfaces"] == json{1, 2});
+  CHECK(outcome.report["total"]["triangles"] == 2);
+}
+
 TEST_CASE("make_even: in a running session, and what makes no sense is refused with the model unchanged") {
   ::gmsh::initialize(0, nullptr, false);
   ::gmsh::option::setNumber("General.Terminal", 0);
