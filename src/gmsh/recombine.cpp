@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "gmsh/check.hpp"
@@ -10,6 +11,7 @@
 #include "gmsh/high_order.hpp"
 #include "gmsh/model_mesh.hpp"
 #include "gmsh/patches.hpp"
+#include "gmsh/periodic.hpp"
 #include "gmsh/replace.hpp"
 #include "gmsh/session.hpp"
 #include "qmorph/convert.hpp"
@@ -73,22 +75,6 @@ std::string group_name(int surface) {
   return name;
 }
 
-/// Tags of surfaces that are periodic to another surface, or another to them.
-std::vector<int> find_periodic(const ModelMesh& mesh) {
-  std::vector<int> tags;
-  for (const EntityMesh& entity : mesh.entities) {
-    if (entity.dim != 2) continue;
-    int master = entity.tag;
-    std::vector<std::size_t> nodes, master_nodes;
-    std::vector<double> transformation;
-    ::gmsh::model::mesh::getPeriodicNodes(2, entity.tag, master, nodes, master_nodes, transformation, false);
-    if (master == entity.tag || nodes.empty()) continue;
-    tags.push_back(entity.tag);
-    tags.push_back(master);
-  }
-  return tags;
-}
-
 /// Triangles and quads of an entity, of any order.
 std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
   std::size_t triangles = 0, quads = 0;
@@ -124,45 +110,80 @@ class Run {
         model_(read_model(report)),
         fixed_edges_(model_.mesh, model_.use) {
     refuse_ghost_cells(model_.mesh);
-    periodic_ = find_periodic(model_.mesh);
+    links_ = read_periodic_links(model_.mesh);
+    families_ = find_families(links_);
     common_ = find_common_elements(model_.mesh, model_.use);
     local_.assign(model_.mesh.tags.size(), kNone);
   }
 
-  void visit(std::uint32_t entity);
+  void visit(const std::vector<std::uint32_t>& entities);
   void finish();
   const ModelMesh& mesh() const { return model_.mesh; }
 
  private:
-  void convert_surface(std::uint32_t entity, SurfaceReport& report);
+  SurfaceReport begin_report(std::uint32_t entity) const;
+  void convert_alone(std::uint32_t entity);
+  void convert_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities);
+  ConvertedSurface read(std::uint32_t entity);
+  void run_engine(ConvertedSurface& converted);
+  void accept(ConvertedSurface converted, SurfaceReport& report);
+  void check(const ConvertedSurface& converted) const;
   void measure_quads(std::uint32_t entity, SurfaceReport& report);
+  void restore_periodicity(const std::vector<PartTags>& part_tags);
 
   const Task task_;
   const Options& options_;
   ModelReport& report_;
   ReadModel model_;
   FixedEdges fixed_edges_;
-  std::vector<int> periodic_;
+  std::vector<PeriodicLink> links_;
+  std::vector<PeriodicFamily> families_;
   std::map<std::uint32_t, CommonElement> common_;
   std::vector<Index> local_;
   std::vector<ConvertedSurface> converted_;
   QualityAccumulator total_;
 };
 
-void Run::visit(std::uint32_t entity) {
+SurfaceReport Run::begin_report(std::uint32_t entity) const {
   const EntityMesh& mesh = model_.mesh.entities[entity];
-  StopWatch watch;
   SurfaceReport report;
   report.tag = mesh.tag;
   report.name = group_name(mesh.tag);
   std::tie(report.triangles_in, report.quads_in) = count_elements(mesh);
   report.triangles_out = report.triangles_in;
   report.quads_out = report.quads_in;
+  return report;
+}
+
+void Run::visit(const std::vector<std::uint32_t>& entities) {
+  std::set<int> done;
+  for (std::uint32_t entity : entities) {
+    const int tag = model_.mesh.entities[entity].tag;
+    if (!done.insert(tag).second) continue;
+    const auto family = std::find_if(families_.begin(), families_.end(), [&](const PeriodicFamily& candidate) {
+      return std::count(candidate.members.begin(), candidate.members.end(), tag);
+    });
+    if (family == families_.end() || task_ == Task::measure) {
+      convert_alone(entity);
+    } else {
+      convert_family(*family, entities);
+      done.insert(family->members.begin(), family->members.end());
+    }
+  }
+  std::sort(report_.surfaces.begin(), report_.surfaces.end(),
+            [](const SurfaceReport& a, const SurfaceReport& b) { return a.tag < b.tag; });
+}
+
+void Run::convert_alone(std::uint32_t entity) {
+  StopWatch watch;
+  SurfaceReport report = begin_report(entity);
   if (task_ == Task::measure || (report.triangles_in == 0 && task_ == Task::convert)) {
     measure_quads(entity, report);
   } else {
     try {
-      convert_surface(entity, report);
+      ConvertedSurface converted = read(entity);
+      run_engine(converted);
+      accept(std::move(converted), report);
     } catch (const SurfaceError& error) {
       report.reason = error.what();
     }
@@ -171,9 +192,53 @@ void Run::visit(std::uint32_t entity) {
   report_.surfaces.push_back(std::move(report));
 }
 
-void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
-  if (std::count(periodic_.begin(), periodic_.end(), report.tag))
-    throw SurfaceError("it is periodic with another surface, and periodic pairs cannot be converted yet");
+/// One surface is converted and the others are its images; all of them or none.
+void Run::convert_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities) {
+  StopWatch watch;
+  std::vector<SurfaceReport> reports;
+  std::vector<ConvertedSurface> converted(family.members.size());
+  int at = 0;  // whose fault it is
+  try {
+    for (std::size_t i = 0; i < family.members.size(); ++i) {
+      at = family.members[i];
+      const auto entity = std::find_if(entities.begin(), entities.end(),
+                                       [&](std::uint32_t e) { return model_.mesh.entities[e].tag == at; });
+      if (entity == entities.end()) throw SurfaceError("it is not to be converted, or has no elements");
+      reports.push_back(begin_report(*entity));
+      if (order_of(model_.mesh.entities[*entity]) > 1)
+        throw SurfaceError("periodic surfaces of higher order cannot be converted yet");
+      converted[i] = read(*entity);
+    }
+    const auto master = [&](std::size_t i) -> ConvertedSurface& {
+      const auto found = std::find(family.members.begin(), family.members.end(), family.link[i]->master);
+      return converted[static_cast<std::size_t>(found - family.members.begin())];
+    };
+    for (std::size_t i = family.members.size(); --i > 0;) {
+      at = family.members[i];
+      match_parts(*family.link[i], model_.mesh, master(i).surface, converted[i].surface);
+    }
+    run_engine(converted[0]);
+    for (std::size_t i = 0; i < converted.size(); ++i) {
+      at = family.members[i];
+      if (i > 0) converted[i].results = copy_results(*family.link[i], master(i), converted[i].surface, model_.mesh);
+      check(converted[i]);
+    }
+    for (std::size_t i = 0; i < converted.size(); ++i) accept(std::move(converted[i]), reports[i]);
+    reports[0].seconds = watch.lap();
+  } catch (const SurfaceError& error) {
+    reports.clear();
+    for (std::uint32_t entity : entities) {
+      SurfaceReport report = begin_report(entity);
+      if (!std::count(family.members.begin(), family.members.end(), report.tag)) continue;
+      report.reason =
+          report.tag == at ? error.what() : fmt::format("it is periodic with surface {}, which stays as it is", at);
+      reports.push_back(std::move(report));
+    }
+  }
+  report_.surfaces.insert(report_.surfaces.end(), reports.begin(), reports.end());
+}
+
+ConvertedSurface Run::read(std::uint32_t entity) {
   if (const auto common = common_.find(entity); common != common_.end())
     throw SurfaceError(fmt::format("surface {} has the same element at {}; leave one of the two out",
                                    model_.mesh.entities[common->second.other].tag,
@@ -186,39 +251,47 @@ void Run::convert_surface(std::uint32_t entity, SurfaceReport& report) {
   else
     free_quads(converted.surface);
   report_.read_seconds += watch.lap();
-  ConversionStats stats;
-  for (const SurfacePart& part : converted.surface.parts) {
-    converted.results.push_back(task_ == Task::convert ? convert(part.patch, options_) : improve(part.patch, options_));
-    stats.add(converted.results.back().stats);
-  }
-  report_.convert_seconds += watch.lap();
+  return converted;
+}
 
-  QualityAccumulator quality;
-  std::size_t triangles = 0, quads = 0;
+void Run::run_engine(ConvertedSurface& converted) {
+  StopWatch watch;
+  for (const SurfacePart& part : converted.surface.parts)
+    converted.results.push_back(task_ == Task::convert ? convert(part.patch, options_) : improve(part.patch, options_));
+  report_.convert_seconds += watch.lap();
+}
+
+/// \throws SurfaceError
+void Run::check(const ConvertedSurface& converted) const {
   const InputQuads quads_are = task_ == Task::convert ? InputQuads::kept : InputQuads::free;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
-    const Patch& patch = converted.surface.parts[p].patch;
-    const QuadMesh& result = converted.results[p];
-    if (const std::string defect = find_defect(patch, result, quads_are); !defect.empty())
+    const SurfacePart& part = converted.surface.parts[p];
+    if (const std::string defect = find_defect(part.patch, converted.results[p], quads_are); !defect.empty())
       throw SurfaceError("the result is not valid: " + defect + "; this is a mistake of qmorph");
-    if (const std::string where =
-            find_bent_corner(model_.mesh, model_.mesh.entities[entity], converted.surface.parts[p], result);
-        !where.empty())
+    const std::string where =
+        find_bent_corner(model_.mesh, model_.mesh.entities[converted.surface.entity], part, converted.results[p]);
+    if (!where.empty())
       throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there");
-    quality.add(result.points, result.triangles, result.quads, patch_normal(patch));
-    triangles += result.triangles.size();
-    quads += result.quads.size();
   }
+}
+
+void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
+  StopWatch watch;
+  check(converted);
+  QualityAccumulator quality;
+  report.triangles_out = report.quads_out = 0;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const QuadMesh& result = converted.results[p];
-    total_.add(result.points, result.triangles, result.quads, patch_normal(converted.surface.parts[p].patch));
+    const Eigen::Vector3d normal = patch_normal(converted.surface.parts[p].patch);
+    for (QualityAccumulator* figures : {&quality, &total_})
+      figures->add(result.points, result.triangles, result.quads, normal);
+    report.triangles_out += result.triangles.size();
+    report.quads_out += result.quads.size();
+    report.stats.add(result.stats);
   }
   report.outcome = SurfaceOutcome::kConverted;
   report.warnings = converted.surface.warnings;
-  report.triangles_out = triangles;
-  report.quads_out = quads;
   report.quality = quality.result();
-  report.stats = stats;
   converted_.push_back(std::move(converted));
   report_.check_seconds += watch.lap();
 }
@@ -251,8 +324,24 @@ void Run::finish() {
   StopWatch watch;
   report_.total = total_.result();
   report_.check_seconds += watch.lap();
-  replace_surfaces(model_.mesh, converted_);
+  restore_periodicity(replace_surfaces(model_.mesh, converted_));
   report_.replace_seconds = watch.lap();
+}
+
+/// Pairs of new nodes where both surfaces were converted; the old ones where a surface had to be put back as it was.
+void Run::restore_periodicity(const std::vector<PartTags>& part_tags) {
+  std::map<int, std::size_t> index;
+  for (std::size_t i = 0; i < converted_.size(); ++i) index[model_.mesh.entities[converted_[i].surface.entity].tag] = i;
+  if (index.empty()) return;
+  for (PeriodicLink& link : links_) {
+    const auto slave = index.find(link.slave), master = index.find(link.master);
+    if (slave == index.end() || master == index.end()) continue;
+    link.nodes.clear();
+    for (std::size_t p = 0; p < part_tags[slave->second].size(); ++p)
+      for (std::size_t i = 0; i < part_tags[slave->second][p].size(); ++i)
+        link.nodes.emplace_back(part_tags[slave->second][p][i], part_tags[master->second][p][i]);
+  }
+  restore_links(links_);
 }
 
 /// Indices of the surfaces to look at, by tag.
@@ -275,7 +364,7 @@ ModelReport run(Task task, const std::vector<int>& surfaces, const Options& opti
   StopWatch watch;
   Run run(task, options, report);
   report.read_seconds += watch.lap();
-  for (std::uint32_t entity : select_surfaces(run.mesh(), surfaces)) run.visit(entity);
+  run.visit(select_surfaces(run.mesh(), surfaces));
   run.finish();
   return report;
 }

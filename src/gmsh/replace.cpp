@@ -118,7 +118,7 @@ bool wants_incomplete(const ModelMesh& mesh) {
 }
 
 EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted, TagPool& node_tags,
-                       TagPool& element_tags) {
+                       TagPool& element_tags, PartTags& part_tags) {
   const EntityMesh& before = mesh.entities[converted.surface.entity];
   EntityMesh entity;
   entity.dim = 2;
@@ -130,6 +130,7 @@ EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted,
     const QuadMesh& result = converted.results[p];
     const auto tags = place_nodes(mesh, converted.surface.entity, part, result, converted.results.size() > 1, node_tags,
                                   placed, entity);
+    part_tags.push_back(tags);
     for (const auto& triangle : result.triangles)
       for (Index i : triangle) triangles.nodes.push_back(tags[i]);
     for (std::size_t q = 0; q < result.quads.size(); ++q) {
@@ -264,19 +265,21 @@ void put_back(const ModelMesh& mesh, const std::vector<EntityMesh>& entities) {
 
 }  // namespace
 
-void replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
-  if (surfaces.empty()) return;
+std::vector<PartTags> replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces) {
+  if (surfaces.empty()) return {};
   TagPool node_tags({}, mesh.max_node_tag, [&] { return mesh.tags; });
   TagPool element_tags(tags_of_removed(mesh, surfaces), mesh.max_element_tag, [&] { return all_element_tags(mesh); });
   std::vector<EntityMesh> entities;
-  for (const ConvertedSurface& converted : surfaces)
-    entities.push_back(make_entity(mesh, converted, node_tags, element_tags));
+  std::vector<PartTags> part_tags(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    entities.push_back(make_entity(mesh, surfaces[i], node_tags, element_tags, part_tags[i]));
   const StageLog log = run_logged([&] { put_back(mesh, entities); });
   if (!log.errors.empty()) throw InputError("Gmsh cannot take the new elements back: " + first_errors(log));
   // Gmsh says it as a warning, and then nothing has been cleared (notes 1.3).
   for (const std::string& warning : log.warnings)
     if (warning.find("Cannot delete mesh") != std::string::npos)
       throw InputError("Gmsh cannot take the new elements back: " + warning);
+  return part_tags;
 }
 
 }  // namespace qmorph::adapter

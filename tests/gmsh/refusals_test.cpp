@@ -137,23 +137,6 @@ TEST_CASE("refused: a surface that bounds tetrahedra") {
   CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
 }
 
-TEST_CASE("refused: periodic surfaces; their neighbours are converted and the pair is kept") {
-  const TemporaryDirectory directory;
-  make_msh(directory / "in.msh", 4.1, false, [] {
-    ::gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
-    ::gmsh::model::occ::synchronize();
-    ::gmsh::model::mesh::setPeriodic(2, {2}, {1}, {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    adapter::set_option("Mesh.MeshSizeMax", 0.3);
-    ::gmsh::model::mesh::generate(2);
-  });
-  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
-  CAPTURE(result.err);
-  CHECK(result.status == 3);
-  CHECK(mentions(result.err, "it is periodic with another surface"));
-  CHECK(mentions(result.err, "2 of 6 surfaces left as they were: 1, 2"));
-  CHECK(difference(read_snapshot(directory / "in.msh"), read_snapshot(directory / "out.msh"), {3, 4, 5, 6}) == "");
-}
-
 TEST_CASE("refused: two surfaces with the same elements") {
   const TemporaryDirectory directory;
   const Grid grid;
