@@ -57,7 +57,7 @@ struct Options {
   FrontOptions front;
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
-  bool check_each_step = false;     ///< validate the mesh after every step: slow, for tests
+  bool check_each_step = false;     ///< look at what every operation has made, and in the front at the whole mesh: slow, for tests
   bool measure_stages = false;      ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
   /// Called now and then with the stage's name and the share done (0 to 1). May be empty.
   std::function<void(std::string_view stage, double share)> progress;

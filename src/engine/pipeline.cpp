@@ -12,6 +12,12 @@
 
 namespace qmorph {
 
+#ifdef QMORPH_CHECKS
+constexpr bool kChecksAlways = true;
+#else
+constexpr bool kChecksAlways = false;
+#endif
+
 using Clock = std::chrono::steady_clock;
 
 Pipeline::Pipeline(const Options& options, ConversionStats& stats, Snapshots* snapshots, const kernel::Mesh& start)
@@ -37,6 +43,7 @@ void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds)
 }
 
 void Pipeline::advance_front(kernel::Mesh& mesh) {
+  mesh.check_commits(kChecksAlways || options_.check_each_step);
   front::morph(mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", share); });
   stats_.front_quads += count_faces(mesh, 4);
   stats_.leftover_triangles += count_faces(mesh, 3);
@@ -44,6 +51,7 @@ void Pipeline::advance_front(kernel::Mesh& mesh) {
 }
 
 void Pipeline::finish(kernel::Mesh& mesh) {
+  mesh.check_commits(kChecksAlways || options_.check_each_step);
   elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving);
   end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
   progress("smoothing", 0);

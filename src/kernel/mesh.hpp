@@ -119,8 +119,9 @@ class Mesh {
   void commit();
   void rollback();
   bool in_transaction() const { return recording_; }
-  /// In a build with QMORPH_CHECKS, `commit()` looks at every element that the transaction touched and throws
-  /// std::logic_error if one contradicts the invariants.
+  /// Whether `commit()` looks at every element that the transaction touched and throws std::logic_error if one
+  /// contradicts the invariants. Off at first.
+  void check_commits(bool on) { checks_commits_ = on; }
 
  private:
   void check_touched() const;
@@ -166,6 +167,7 @@ class Mesh {
   Pool<Vertex> vertex_pool_;
   Pool<Face> face_pool_;
   bool recording_ = false;
+  bool checks_commits_ = false;
 };
 
 /// Everything that contradicts the invariants above, in words; empty for a legal mesh. With `geometry`, faces

@@ -117,9 +117,7 @@ void Mesh::begin() {
 
 void Mesh::commit() {
   assert(recording_);
-#ifdef QMORPH_CHECKS
-  check_touched();
-#endif
+  if (checks_commits_) check_touched();
   recording_ = false;
   commit_pool(edge_pool_);
   commit_pool(vertex_pool_);

@@ -140,3 +140,18 @@ TEST_CASE("rollback takes back that a node was fixed") {
   mesh.rollback();
   CHECK_FALSE(mesh.is_fixed(4));
 }
+
+TEST_CASE("commits that are checked refuse elements that are not valid, and only those that were touched") {
+  Mesh mesh = quad_grid(3, 3);
+  mesh.set_point(5, {1.9, 1.9});  // not in a transaction: nobody looks
+  mesh.check_commits(true);
+  mesh.begin();
+  mesh.set_point(10, {2.1, 2.1});  // the other end of the quad that is turned over now
+  CHECK_THROWS_AS(mesh.commit(), std::logic_error);
+  mesh.rollback();
+  mesh.set_point(5, {1, 1});
+  mesh.begin();
+  mesh.set_point(10, {2.1, 2.1});
+  mesh.commit();
+  CHECK(defect(mesh) == "");
+}

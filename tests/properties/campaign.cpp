@@ -4,6 +4,8 @@
 //   qmorph_campaign --dump SEED PREFIX  writes PREFIX-in.msh and, if the conversion ends, PREFIX-out.msh
 //   qmorph_campaign --shrink SEED PREFIX  the same for a smaller patch that fails in the same way
 //
+// Seeds from 1000000000 on are nasty domains (support/nasty.hpp) instead of random ones.
+//
 // The seeds run in a child process, so that one that crashes or hangs is reported like any other, and the rest goes on.
 // Exit status 0 if nothing failed.
 #include <poll.h>
@@ -23,11 +25,19 @@
 #include "support/domains.hpp"
 #include "support/dump.hpp"
 #include "support/invariants.hpp"
+#include "support/nasty.hpp"
 #include "support/shrink.hpp"
 
 namespace {
 
 using namespace qmorph;
+
+/// Seeds from here on are those of nasty domains, numbered from 0 again.
+constexpr std::uint64_t kNasty = 1000000000;
+
+test::Domain domain_of(std::uint64_t seed) {
+  return seed < kNasty ? test::random_domain(seed) : test::nasty_domain(seed - kNasty);
+}
 
 constexpr int kHangSeconds = 20;  // an ordinary domain takes milliseconds
 
@@ -42,7 +52,7 @@ struct Report {
 void copy(char* to, std::size_t size, const std::string& from) { std::snprintf(to, size, "%s", from.c_str()); }
 
 Report run_seed(std::uint64_t seed) {
-  const test::Domain domain = test::random_domain(seed);
+  const test::Domain domain = domain_of(seed);
   Report report;
   report.seed = seed;
   report.triangles = domain.patch.triangles.size();
@@ -181,7 +191,7 @@ std::uint64_t run_child(std::uint64_t first, std::uint64_t last, Summary& summar
   waitpid(child, &status, 0);
   if (problem.empty()) return next;
   if (problem == "crash" && WIFSIGNALED(status)) problem += ": signal " + std::to_string(WTERMSIG(status));
-  const test::Domain domain = test::random_domain(next);
+  const test::Domain domain = domain_of(next);
   Report report;
   report.seed = next;
   report.triangles = domain.patch.triangles.size();
@@ -214,7 +224,7 @@ void dump_patch(const Patch& patch, const std::string& prefix) {
 
 /// Writes the patch of a seed and what becomes of it.
 int dump_seed(std::uint64_t seed, const std::string& prefix, bool shrink) {
-  test::Domain domain = test::random_domain(seed);
+  test::Domain domain = domain_of(seed);
   if (shrink) {
     const std::string cause = cause_of(problem_of(domain.patch));
     if (cause.empty()) {
