@@ -43,8 +43,40 @@ struct CleanupOptions {
   double shape_angle = 8 * std::numbers::pi / 9;
 };
 
+/// Constants of the thesis' smoothing (table 4.1), under its names where a command sets them. Lengths are relative
+/// here; there they were absolute.
+struct ThesisSmoothing {
+  /// THETAMAX: a move that leaves a larger angle is refused. 4.1.6
+  double largest_angle = 10 * std::numbers::pi / 9;
+  /// MYMIN: below this metric an element is poor; a move may not make the mean worse by more. 4.1.5
+  double least_quality = 0.05;
+  /// OBSTOL: nodes of elements with a smaller metric are optimised after two Laplacian moves. 4.1.7
+  double optimise_below = 0.1;
+  /// DELTAFACTOR: differences for gradients are this times the longest edge at the node. 4.1.4
+  double delta_factor = 1e-5;
+  /// GAMMA: where no element limits the step of steepest descent, it is this times the shortest edge at the node. 4.1.8
+  double gamma = 0.8;
+  /// TOL: by how much an optimising step must raise the smallest metric. 4.1.9
+  double least_gain = 1e-5;
+  /// MAXITER: passes. 4.1.10
+  int most_passes = 5;
+  /// MOVETOLERANCE: shorter moves, relative to the mean edge at the node, are not made. 4.1.3
+  double move_tolerance = 0.01;
+  /// COINCTOL: nodes of an element nearer than this times its longest side coincide. 4.1.2
+  double coincidence = 0.01;
+};
+
+/// How nodes are moved.
+enum class SmoothingMethod {
+  shape_energy,  ///< Newton steps on a shape energy, then on the worst corners
+  thesis,        ///< constrained Laplacian, then steepest descent on the worst element. Thesis 2.2.6, 3.7
+};
+
 /// Constants of smoothing and repair.
 struct SmoothingOptions {
+  /// Of the smoothing of the whole mesh; what cleanup relaxes around a change always uses the energy.
+  SmoothingMethod method = SmoothingMethod::shape_energy;
+  ThesisSmoothing thesis;
   int iterations = 8;               ///< passes over the nodes that are still active
   double move_tolerance = 1e-3;     ///< a move shorter than this times the local edge length ends a node's activity
   int untangling_sweeps = 40;       ///< passes of the regularised energy over a patch with invalid elements

@@ -51,6 +51,7 @@ constexpr std::array kRows = {
     Row{"for", "--for READER", 1,
         "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
+    Row{"smoothing", "--smoothing NAME", 1, "shape_energy (default), or thesis: constrained Laplacian"},
     Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
     Row{"check", "--check", 0, "judge the mesh IN and write nothing: status 6 if it is not good enough"},
     Row{"min-sj", "--min-sj X", 1, "for --check: every scaled Jacobian above X (default 0)"},
@@ -244,6 +245,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--keep-curves", request.keep_curves)->delimiter(',')->allow_extra_args(false);
   app.add_flag("--cleanup-only", request.cleanup_only);
   app.add_option("--stats", request.stats);
+  app.add_option("--smoothing", request.smoothing);
   app.add_option("--set", request.settings)->allow_extra_args(false);
   app.add_flag("--help", request.help);
   app.add_flag("--version", request.version);

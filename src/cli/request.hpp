@@ -21,6 +21,7 @@ struct Request {
   std::string consumer;             ///< of --for
   Thresholds thresholds;
   std::vector<int> surfaces;
+  std::string smoothing;                    ///< the method, or empty
   std::vector<std::string> settings;        ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;

@@ -205,10 +205,14 @@ void commit(const Request& request, adapter::StagedFile* mesh, const std::string
   if (stats) stats->commit();
 }
 
-/// The options of the engine that --set names.
-Options engine_options(const std::vector<std::string>& settings) {
+/// The options of the engine that --smoothing and --set name.
+Options engine_options(const Request& request) {
   Options options;
-  for (const std::string& setting : settings) {
+  if (request.smoothing == "thesis")
+    options.smoothing.method = SmoothingMethod::thesis;
+  else if (!request.smoothing.empty() && request.smoothing != "shape_energy")
+    throw UsageError(fmt::format("--smoothing: '{}' is neither shape_energy nor thesis", request.smoothing));
+  for (const std::string& setting : request.settings) {
     const std::size_t equals = setting.find('=');
     const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
     char* end = nullptr;
@@ -261,7 +265,7 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
 
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
-  Options options = engine_options(request.settings);
+  Options options = engine_options(request);
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   const adapter::Session session(request.gmsh_arguments);

@@ -1,6 +1,4 @@
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "qmorph/error.hpp"
 #include "qmorph/options.hpp"
@@ -9,7 +7,6 @@ namespace qmorph {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Name {
   std::string_view name;
@@ -18,6 +15,19 @@ struct Name {
 };
 
 constexpr std::array kNames = {
+    // Table 4.1 of the thesis.
+    Name{"EPSILON1", 0, 180, [](Options& o, double v) { o.front.seam_angle_many = v * kDegree; }},
+    Name{"EPSILON2", 0, 180, [](Options& o, double v) { o.front.seam_angle = v * kDegree; }},
+    Name{"COINCTOL", 0, 1, [](Options& o, double v) { o.smoothing.thesis.coincidence = v; }},
+    Name{"MOVETOLERANCE", 0, 1, [](Options& o, double v) { o.smoothing.thesis.move_tolerance = v; }},
+    Name{"OBSTOL", -4, 1, [](Options& o, double v) { o.smoothing.thesis.optimise_below = v; }},
+    Name{"DELTAFACTOR", 1e-9, 0.1, [](Options& o, double v) { o.smoothing.thesis.delta_factor = v; }},
+    Name{"MYMIN", 0, 1, [](Options& o, double v) { o.smoothing.thesis.least_quality = v; }},
+    Name{"THETAMAX", 90, 360, [](Options& o, double v) { o.smoothing.thesis.largest_angle = v * kDegree; }},
+    Name{"TOL", 0, 1, [](Options& o, double v) { o.smoothing.thesis.least_gain = v; }},
+    Name{"GAMMA", 0, 1, [](Options& o, double v) { o.smoothing.thesis.gamma = v; }},
+    Name{"MAXITER", 0, 1000, [](Options& o, double v) { o.smoothing.thesis.most_passes = int(v); }},
+    // Our own.
     Name{"cleanup.chevron_angle", 90, 360, [](Options& o, double v) { o.cleanup.chevron_angle = v * kDegree; }},
     Name{"cleanup.pattern_rounds", 0, 100, [](Options& o, double v) { o.cleanup.pattern_rounds = int(v); }},
     Name{"cleanup.connectivity_cases", 0, 1, [](Options& o, double v) { o.cleanup.connectivity_cases = v != 0; }},

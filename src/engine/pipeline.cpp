@@ -70,7 +70,8 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
   cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing);
-  smoothing::raise_worst_corners(mesh, options_.smoothing);
+  if (options_.smoothing.method == SmoothingMethod::shape_energy)
+    smoothing::raise_worst_corners(mesh, options_.smoothing);
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "smoothing/node_energy.hpp"
+#include "smoothing/thesis_smoothing.hpp"
 #include "smoothing/untangle.hpp"
 
 namespace qmorph::smoothing {
@@ -141,7 +142,10 @@ void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
   std::vector<Index> nodes;
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v) && mesh.is_free(v)) nodes.push_back(v);
-  Passes(mesh, options).run(nodes);
+  if (options.method == SmoothingMethod::thesis)
+    smooth_by_thesis(mesh, options.thesis, nodes);
+  else
+    Passes(mesh, options).run(nodes);
 }
 
 bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
