@@ -95,7 +95,9 @@ void write_inp_for(const ConsumerMesh& mesh, const std::string& path) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "*HEADING\nqmorph\n*NODE\n");
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    fmt::format_to(out, "{}, {}, {}, {}\n", i + 1, mesh.nodes[i].x(), mesh.nodes[i].y(), mesh.nodes[i].z());
+    // CalculiX takes 20 characters for a number and not one more.
+    fmt::format_to(out, "{}, {:.13g}, {:.13g}, {:.13g}\n", i + 1, mesh.nodes[i].x(), mesh.nodes[i].y(),
+                   mesh.nodes[i].z());
   int dim = 0;
   for (const ConsumerElement& element : mesh.elements) dim = std::max(dim, element.dim);
 
