@@ -17,11 +17,14 @@ kernel::Mesh convert_region(const Region& region, const Plane& plane, const Opti
   repair_input(start, plane);
   grade_fans(start);
 
-  kernel::Mesh mesh = start;
-  pipeline.advance_front(mesh);
-  pipeline.finish(mesh);
-  const std::string fault = find_fault(mesh, region, plane);
-  if (fault.empty()) return mesh;
+  std::string fault = find_needles(start, plane);
+  if (fault.empty()) {
+    kernel::Mesh mesh = start;
+    pipeline.advance_front(mesh);
+    pipeline.finish(mesh);
+    fault = find_fault(mesh, region, plane);
+    if (fault.empty()) return mesh;
+  }
 
   // A front has no room in fans and needles. Pairing the triangles as they are often has.
   pipeline.finish(start);

@@ -62,4 +62,21 @@ void repair_input(Mesh& mesh, const Plane& plane) {
                          " has no area and its nodes are fixed; remove or collapse it");
 }
 
+std::string find_needles(const Mesh& mesh, const Plane& plane) {
+  constexpr std::size_t kFew = 20;
+  constexpr double kShare = 0.3;
+  std::size_t faces = 0, thin = 0;
+  Index first = kNone;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    ++faces;
+    if (mesh.smallest_sine(f) > kStraightSine) continue;
+    if (++thin == 1) first = f;
+  }
+  if (thin <= kFew || double(thin) <= kShare * double(faces)) return {};
+  return "no valid quads were found where " + std::to_string(thin) + " of " + std::to_string(faces) +
+         " triangles are more than a million times longer than high, the first at " + corners_of(mesh, plane, first) +
+         "; mesh the surface anew";
+}
+
 }  // namespace qmorph

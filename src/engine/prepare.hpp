@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "kernel/mesh.hpp"
 
 namespace qmorph {
@@ -9,5 +11,9 @@ struct Plane;
 /// or by moving a free corner. Throws SurfaceError where that is impossible, or where a triangle is turned over,
 /// which means that triangles overlap.
 void repair_input(kernel::Mesh& mesh, const Plane& plane);
+
+/// A complaint, if a large share of the triangles is thinner than an element may be (`kStraightSine`). A few of these
+/// can be turned into better ones, and rectangles may be as thin as they like, but a front has no room there.
+std::string find_needles(const kernel::Mesh& mesh, const Plane& plane);
 
 }  // namespace qmorph

@@ -88,6 +88,32 @@ TEST_CASE("patches that are refused with SurfaceError") {
   CHECK(refusal(patch) != "");
 }
 
+TEST_CASE("surfaces ten million times longer than high: rectangles are found, for needles the message says why not") {
+  const auto strip = [](double height, double height_at_ends) {
+    Patch patch;
+    const Index steps = 40;
+    for (Index i = 0; i <= steps; ++i)
+      for (const double y : {0.0, height})
+        patch.points.emplace_back(i, i == 0 || i == steps ? y * height_at_ends : y, 0);
+    for (Index i = 0; i < steps; ++i) {
+      const Index a = 2 * i, b = a + 1, c = a + 2, d = a + 3;
+      patch.triangles.push_back({a, c, b});
+      patch.triangles.push_back({b, c, d});
+    }
+    return patch;
+  };
+  CHECK(refusal(strip(1e-3, 1)) == "");
+  CHECK(refusal(strip(1e-7, 1)) == "");
+  // Needles at both ends.
+  Patch needle = strip(1e-7, 0);
+  needle.triangles.erase(needle.triangles.begin());
+  needle.triangles.pop_back();
+  for (auto& t : needle.triangles)
+    for (Index& v : t)
+      if (v == 1 || v == 81) --v;
+  CHECK(refusal(needle).find("no valid quads were found where 78 of 78 triangles") == 0);
+}
+
 TEST_CASE("a band that lies over itself is refused, one that does not is not") {
   CHECK(refusal(spiral(0.9, 0)) == "");
   CHECK(refusal(spiral(1.5, 1.2)) == "");  // each turn outside the one before
