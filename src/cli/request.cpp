@@ -50,6 +50,7 @@ constexpr std::array kRows = {
         "improve quads, by Gmsh or anyone, that are there already; triangles among them are paired"},
     Row{"for", "--for READER", 1,
         "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
+    Row{"elements", "--elements NAME", 1, "for decks: CPS (default), CPE, CAX, S or M3D, with an R behind for reduced"},
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
     Row{"smoothing", "--smoothing NAME", 1, "shape_energy (default), or thesis: constrained Laplacian"},
     Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
@@ -233,6 +234,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--part", request.partitions)->check(CLI::NonNegativeNumber);
   app.add_flag("--drop-volumes", request.drop_volumes);
   app.add_option("--for", request.consumer);
+  auto* elements = app.add_option("--elements", request.elements);
   app.add_flag("--check", request.check);
   auto* min_sj = app.add_option("--min-sj", request.thresholds.min_scaled_jacobian)->check(CLI::Range(-1.0, 1.0));
   auto* irregular = app.add_option("--max-irregular", request.thresholds.max_irregular)->check(CLI::Range(0.0, 1.0));
@@ -260,6 +262,8 @@ Request parse(const std::vector<std::string>& arguments) {
   request.input = inputs.front();
   request.merged.assign(inputs.begin() + 1, inputs.end());
   if (volumes) request.dimension = 3;
+  if (*elements && request.consumer != "calculix" && request.consumer != "abaqus")
+    throw UsageError("--elements goes with --for calculix or abaqus");
   if (!request.check && (*min_sj || *irregular || *no_triangles))
     throw UsageError("--min-sj, --max-irregular and --no-triangles go with --check");
   if (request.all_quad && request.cleanup_only)

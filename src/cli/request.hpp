@@ -19,17 +19,18 @@ struct Request {
   std::string input, output, format, stats;
   std::vector<std::string> merged;  ///< further files, merged with the input
   std::string consumer;             ///< of --for
+  std::string elements = "CPS";     ///< family of a deck's surface elements
   Thresholds thresholds;
   std::vector<int> surfaces;
-  std::string smoothing;                    ///< the method, or empty
-  std::vector<std::string> settings;        ///< NAME=VALUE for set_option()
+  std::string smoothing;              ///< the method, or empty
+  std::vector<std::string> settings;  ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;
   bool cleanup_only = false;  ///< improve the quads that are there
   bool all_quad = false;      ///< curves may get nodes so that no triangle is left
   std::vector<int> keep_curves;
-  bool check = false;         ///< judge the mesh, write nothing
-  bool no_meshing = false;    ///< -save: what has no elements gets none
+  bool check = false;       ///< judge the mesh, write nothing
+  bool no_meshing = false;  ///< -save: what has no elements gets none
   bool drop_volumes = false;
   bool ignore_periodicity = false;
   int dimension = 2;   ///< 3: volumes are meshed on the quads

@@ -103,6 +103,9 @@ adapter::OutputPlan check_places(const Request& request) {
   std::string format = request.format;
   if (!request.consumer.empty()) {
     const std::string_view wanted = adapter::find_consumer(request.consumer).format;
+    if (!adapter::is_element_family(request.elements))
+      throw UsageError(fmt::format("--elements: '{}' is none of CPS, CPE, CAX, S, M3D, with or without an R behind it",
+                                   request.elements));
     if (!format.empty() && format != wanted)
       throw UsageError(fmt::format("--for {} writes the format {}, not {}", request.consumer, wanted, format));
     format = wanted;
@@ -128,24 +131,23 @@ bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const
 }
 
 /// In the reader's terms. \throws ReaderError
-void write_for_consumer(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
-                        adapter::StagedFile& file) {
+void write_for_consumer(const Request& request, const adapter::OpenedModel& opened, adapter::StagedFile& file) {
   const adapter::Consumer& consumer = adapter::find_consumer(request.consumer);
   const adapter::ConsumerMesh mesh = adapter::collect_for(consumer, opened.msh.version != 0);
   if (!mesh.complaints.empty()) throw ReaderError{mesh.complaints};
   if (consumer.format == "inp")
-    adapter::write_inp_for(mesh, file.path());
+    adapter::write_inp_for(mesh, request.elements, file.path());
   else if (consumer.format == "msh2")
     adapter::write_msh2_for(consumer, mesh, file.path());
   else
-    adapter::write_model(plan, opened, {}, file);
+    adapter::write_su2_for(mesh, file.path());
 }
 
 /// Writes the mesh to a file beside its place. \return false if the output is the input and stays what it is
 bool write(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
            const ModelReport& model, adapter::StagedFile& file) {
   if (!request.consumer.empty()) {
-    write_for_consumer(request, plan, opened, file);
+    write_for_consumer(request, opened, file);
   } else if (!is_as_it_was(request, plan, opened, model)) {
     adapter::write_model(plan, opened, {request.msh_version, request.binary}, file);
   } else {

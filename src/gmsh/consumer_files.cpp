@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "gmsh/compat.hpp"
 #include "gmsh/consumers.hpp"
@@ -28,16 +30,26 @@ void save(const std::string& path, const fmt::memory_buffer& text) {
   if (!out) throw OutputError(fmt::format("cannot write {}; is the disk full?", path));
 }
 
-/// Abaqus' numbers of element types: by dimension, corners and nodes.
-const char* abaqus_type(const ElementType& type) {
-  if (type.dim == 2 && type.nodes == 3) return "CPS3";
-  if (type.dim == 2 && type.nodes == 6) return "CPS6";
-  if (type.dim == 2 && type.corners == 4 && type.nodes == 4) return "CPS4";
-  if (type.dim == 2 && type.corners == 4 && type.nodes == 8) return "CPS8";
+constexpr std::array<std::string_view, 5> kFamilies = {"CPS", "CPE", "CAX", "S", "M3D"};
+
+/// Abaqus' name of an element type: for surfaces the family, the number of nodes, and R for reduced integration.
+std::string abaqus_type(const ElementType& type, const std::string& family) {
+  if (type.dim == 2 && (type.nodes == 3 || type.nodes == 4 || type.nodes == 6 || type.nodes == 8)) {
+    const bool reduced = family.back() == 'R';
+    return fmt::format("{}{}{}", family.substr(0, family.size() - reduced), type.nodes,
+                       reduced && type.corners == 4 ? "R" : "");
+  }
   if (type.dim == 3 && type.nodes == 4) return "C3D4";
   if (type.dim == 3 && type.corners == 8 && type.nodes == 8) return "C3D8";
   if (type.dim == 3 && type.nodes == 6) return "C3D6";
   throw OutputError(fmt::format("a deck has no element with {} corners and {} nodes", type.corners, type.nodes));
+}
+
+/// VTK's number of a linear element, which SU2 uses.
+int vtk_type(const ElementType& type) {
+  if (type.dim == 1) return 3;
+  if (type.dim == 2) return type.corners == 3 ? 5 : 9;
+  return type.corners == 4 ? 10 : type.corners == 5 ? 14 : type.corners == 6 ? 13 : 12;
 }
 
 /// Names of sets: no blanks, no quotes, and not of digits alone.
@@ -90,7 +102,44 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
   save(path, text);
 }
 
-void write_inp_for(const ConsumerMesh& mesh, const std::string& path) {
+bool is_element_family(const std::string& family) {
+  return std::any_of(kFamilies.begin(), kFamilies.end(),
+                     [&](std::string_view known) { return family == known || family == std::string(known) + "R"; });
+}
+
+void write_su2_for(const ConsumerMesh& mesh, const std::string& path) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  int dim = 0;
+  for (const ConsumerElement& element : mesh.elements) dim = std::max(dim, element.dim);
+  const auto line = [&](const ConsumerElement& element) {
+    std::string words = std::to_string(vtk_type(element_type(element.type)));
+    for (std::size_t node : element.nodes) words += ' ' + std::to_string(node - 1);
+    return words;
+  };
+  std::vector<std::string> cells;
+  std::map<int, std::vector<std::string>> markers;
+  for (const ConsumerElement& element : mesh.elements) {
+    if (element.dim == dim) cells.push_back(line(element));
+    if (element.dim == dim - 1)
+      for (int group : element.groups) markers[group].push_back(line(element));
+  }
+  fmt::format_to(out, "NDIME= {}\nNELEM= {}\n", dim, cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) fmt::format_to(out, "{} {}\n", cells[i], i);
+  fmt::format_to(out, "NPOIN= {}\n", mesh.nodes.size());
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    fmt::format_to(out, "{} {} ", mesh.nodes[i].x(), mesh.nodes[i].y());
+    if (dim == 3) fmt::format_to(out, "{} ", mesh.nodes[i].z());
+    fmt::format_to(out, "{}\n", i);
+  }
+  fmt::format_to(out, "NMARK= {}\n", markers.size());
+  for (const auto& [group, lines] : markers)
+    fmt::format_to(out, "MARKER_TAG= {}\nMARKER_ELEMS= {}\n{}\n", set_name(dim - 1, group), lines.size(),
+                   fmt::join(lines, "\n"));
+  save(path, text);
+}
+
+void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const std::string& path) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "*HEADING\nqmorph\n*NODE\n");
@@ -111,7 +160,7 @@ void write_inp_for(const ConsumerMesh& mesh, const std::string& path) {
     blocks[{element.entity, element.type}].push_back(i);
   }
   for (const auto& [key, members] : blocks) {
-    fmt::format_to(out, "*ELEMENT, TYPE={}, ELSET={}{}\n", abaqus_type(element_type(key.second)),
+    fmt::format_to(out, "*ELEMENT, TYPE={}, ELSET={}{}\n", abaqus_type(element_type(key.second), family),
                    dim == 2 ? "Surface" : "Volume", key.first);
     for (std::size_t i : members) fmt::format_to(out, "{}, {}\n", i + 1, fmt::join(mesh.elements[i].nodes, ", "));
   }

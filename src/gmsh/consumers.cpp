@@ -32,7 +32,12 @@ constexpr std::array kConsumers = {
              .needs_surface_groups = true},
     // egconvert.c: 404, 408, 409.
     Consumer{.name = "elmer", .title = "ElmerGrid", .format = "msh2", .max_order = 2},
-    Consumer{.name = "su2", .title = "SU2", .format = "su2", .needs_curve_groups = true, .right_handed = true},
+    Consumer{.name = "su2",
+             .title = "SU2",
+             .format = "su2",
+             .inner_lines = false,
+             .needs_curve_groups = true,
+             .right_handed = true},
     Consumer{.name = "calculix",
              .title = "CalculiX",
              .format = "inp",

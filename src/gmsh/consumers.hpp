@@ -49,9 +49,17 @@ ConsumerMesh collect_for(const Consumer& consumer, bool everything);
 /// Writes MSH 2.2 in ASCII. \throws OutputError
 void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const std::string& path);
 
-/// Writes a deck with nodes, elements of the dimension of the mesh, and sets of both for each physical group. Elements
-/// are for plane stress (CPS4, CPS8); lines are sets of nodes and no elements, which would be trusses.
+/// Writes a deck with nodes, elements of the dimension of the mesh, and sets of both for each physical group. Lines are
+/// sets of nodes and no elements, which would be trusses.
+/// \param family of the surface elements, by which their names begin and end: CPS (plane stress: CPS4, CPS8), CPE (plane
+///        strain), CAX (axisymmetric), S (shells), M3D (membranes), each with an R behind it for reduced integration
 /// \throws OutputError
-void write_inp_for(const ConsumerMesh& mesh, const std::string& path);
+void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const std::string& path);
+
+/// Whether a deck can have such elements.
+bool is_element_family(const std::string& family);
+
+/// Writes elements and nodes from 0, and a marker for each physical group of the boundary. \throws OutputError
+void write_su2_for(const ConsumerMesh& mesh, const std::string& path);
 
 }  // namespace qmorph::adapter

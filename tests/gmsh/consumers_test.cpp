@@ -151,3 +151,39 @@ TEST_CASE("consumers: clockwise surfaces are turned for readers that want them c
   CHECK(area("mfem") > 0);
   CHECK(area("elmer") < 0);
 }
+
+TEST_CASE("consumers: the family of a deck's elements") {
+  const struct {
+    std::vector<std::string> words;
+    const char* type;
+  } kCases[] = {{{"--elements", "CPE"}, "TYPE=CPE4,"},
+                {{"--elements", "S", "-order", "2"}, "TYPE=S8,"},
+                {{"--elements=CPSR"}, "TYPE=CPS4R,"}};
+  for (const auto& the_case : kCases) {
+    CAPTURE(the_case.type);
+    const Run run("abaqus", square(), the_case.words);
+    CAPTURE(run.result.err);
+    CHECK(run.result.status == 0);
+    CHECK(mentions(run.text, the_case.type));
+  }
+  CHECK(Run("abaqus", square(), {"--elements", "C3D"}).result.status == 1);
+  CHECK(Run("mfem", square(), {"--elements", "CPE"}).result.status == 1);
+}
+
+TEST_CASE("consumers: SU2 gets markers, counterclockwise quads and numbers from 0") {
+  const Run run("su2", square());
+  CAPTURE(run.result.err);
+  REQUIRE(run.result.status == 0);
+  CHECK(run.text.substr(0, 9) == "NDIME= 2\n");
+  CHECK(mentions(run.text, "\nNMARK= 1\nMARKER_TAG= bottom\nMARKER_ELEMS= "));
+  std::istringstream in(run.text.substr(run.text.find("NELEM= ") + 7));
+  std::size_t count = 0;
+  in >> count;
+  CHECK(count > 10);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t type = 0, a = 0, b = 0, c = 0, d = 0, number = 0;
+    in >> type >> a >> b >> c >> d >> number;
+    CHECK(type == 9);
+    CHECK(number == i);
+  }
+}
