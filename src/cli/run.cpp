@@ -287,6 +287,8 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   }
 
   finish_model(request, opened);
+  if (is_as_it_was(request, plan, opened, model)) even.reset();  // OUT has the curves of IN
+
   const Clock::time_point write_start = Clock::now();
   if (request.verbosity >= 1) {
     const std::string lost = adapter::describe_unwritten(plan, opened);

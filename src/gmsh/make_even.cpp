@@ -46,13 +46,27 @@ ReadMesh read_classified() {
   return read;
 }
 
-std::vector<std::uint32_t> find_surfaces(const ModelMesh& mesh, const std::vector<int>& wanted) {
+/// Such a surface stays as it is: tetrahedra stand on its triangles.
+bool bounds_volume(const ModelMesh& mesh, const NodeUse& use, const EntityMesh& surface) {
+  for (const ElementBlock& block : surface.blocks)
+    for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element)
+      if (std::all_of(block.nodes.begin() + std::ptrdiff_t(i), block.nodes.begin() + std::ptrdiff_t(i) + 3,
+                      [&](std::size_t tag) {
+                        const Index row = mesh.rows.find(tag);
+                        return row != kNone && use.volume[row];
+                      }))
+        return true;
+  return false;
+}
+
+std::vector<std::uint32_t> find_surfaces(const ModelMesh& mesh, const NodeUse& use, const std::vector<int>& wanted) {
   std::vector<int> missing = wanted;
   std::vector<std::uint32_t> found;
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
     if (mesh.entities[e].dim != 2) continue;
     std::erase(missing, mesh.entities[e].tag);
-    if (wanted.empty() || std::count(wanted.begin(), wanted.end(), mesh.entities[e].tag)) found.push_back(e);
+    const bool asked = wanted.empty() || std::count(wanted.begin(), wanted.end(), mesh.entities[e].tag);
+    if (asked && !bounds_volume(mesh, use, mesh.entities[e])) found.push_back(e);
   }
   if (!missing.empty()) throw UsageError(fmt::format("the model has no surface {}", missing.front()));
   return found;
@@ -275,8 +289,8 @@ void Splitter::put_back() const {
 EvenReport make_even(const std::vector<int>& surfaces, const std::vector<int>& keep_curves) {
   const QuietErrors quiet;
   ReadMesh read = read_classified();
-  const RegionGraph graph =
-      find_region_graph(read.mesh, read.use, find_surfaces(read.mesh, surfaces), check_curves(read.mesh, keep_curves));
+  const RegionGraph graph = find_region_graph(read.mesh, read.use, find_surfaces(read.mesh, read.use, surfaces),
+                                              check_curves(read.mesh, keep_curves));
   EvenReport report;
   report.odd_regions = std::size_t(std::count(graph.odd.begin(), graph.odd.end(), true));
   const parity::Plan plan = parity::plan_splits(graph.odd, graph.links);
