@@ -1,7 +1,10 @@
 #include "engine/mixed.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <unordered_set>
 
+#include "geometry/predicates.hpp"
 #include "qmorph/error.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
@@ -22,21 +25,42 @@ Eigen::Vector3d mean_normal(const Patch& patch) {
   return sum;
 }
 
-/// Valid or not, a mesh has few bad elements: sets of those that share nodes, with all their nodes.
-std::vector<std::vector<Index>> nodes_of_bad_quads(const Mesh& mesh) {
-  const auto is_bad = [&](Index f) { return mesh.is_quad(f) && !mesh.is_valid_face(f); };
+/// Pairs of nodes that have an edge.
+class Edges {
+ public:
+  Edges() = default;
+  explicit Edges(const Patch& patch) {
+    const auto add_sides = [&](const auto& element) {
+      for (std::size_t i = 0; i < element.size(); ++i) add(element[i], element[(i + 1) % element.size()]);
+    };
+    for (const auto& t : patch.triangles) add_sides(t);
+    for (const auto& q : patch.quads) add_sides(q);
+  }
+  void add(Index a, Index b) { keys_.insert(key(a, b)); }
+  bool has(Index a, Index b) const { return keys_.count(key(a, b)) != 0; }
+
+ private:
+  static std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+  std::unordered_set<std::uint64_t> keys_;
+};
+
+bool is_bad(const Mesh& mesh, Index f) { return mesh.is_live_face(f) && !mesh.is_valid_face(f); }
+
+/// Bad elements in sets that are not farther apart than what untangling moves around them; all nodes of each set.
+std::vector<std::vector<Index>> find_bad_sets(const Mesh& mesh) {
+  constexpr int kReach = 3;
   std::vector<char> seen(mesh.face_slots(), 0);
   std::vector<std::vector<Index>> sets;
   for (Index first = 0; first < mesh.face_slots(); ++first) {
-    if (!mesh.is_live_face(first) || seen[first] || !is_bad(first)) continue;
+    if (seen[first] || !is_bad(mesh, first)) continue;
     std::vector<Index> open{first}, nodes;
     seen[first] = 1;
     while (!open.empty()) {
       const Index f = open.back();
       open.pop_back();
       for (Index v : topology::nodes_of(mesh, f)) nodes.push_back(v);
-      for (Index g : topology::grow(mesh, {f}, 1))
-        if (!seen[g] && is_bad(g)) {
+      for (Index g : topology::grow(mesh, {f}, kReach))
+        if (!seen[g] && is_bad(mesh, g)) {
           seen[g] = 1;
           open.push_back(g);
         }
@@ -48,23 +72,58 @@ std::vector<std::vector<Index>> nodes_of_bad_quads(const Mesh& mesh) {
   return sets;
 }
 
-void untangle(Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes) {
-  constexpr int kRings = 2;
-  mesh.begin();
-  smoothing::smooth_near(mesh, smoothing, nodes, kRings) ? mesh.commit() : mesh.rollback();
+/// Puts each free node to the middle of its neighbours, a few times over: no solution, but a start that is not far off.
+void spread(Mesh& mesh, const std::vector<Index>& nodes) {
+  constexpr int kPasses = 20;
+  for (int pass = 0; pass < kPasses; ++pass)
+    for (Index v : nodes) {
+      if (!mesh.is_free(v)) continue;
+      Vec2 sum = Vec2::Zero();
+      int count = 0;
+      Index h = mesh.out(v);
+      do {
+        sum += mesh.point(mesh.target(h));
+        ++count;
+        h = mesh.rotate_ccw(h);
+      } while (h != mesh.out(v));
+      mesh.set_point(v, sum / count);
+    }
 }
 
-/// Cuts a quad along the diagonal whose triangles are better. False if one of them is not valid all the same.
-bool cut(Mesh& mesh, Index f) {
+/// How hard to try: where the nodes start, how far around others move, how often.
+struct Effort {
+  bool from_the_middle;
+  int rings;
+  int sweeps;  ///< times the usual number
+};
+constexpr Effort kEfforts[] = {{false, 2, 1}, {true, 2, 1}, {true, 4, 4}};
+
+void untangle_bad_sets(Mesh& mesh, const SmoothingOptions& smoothing) {
+  for (const std::vector<Index>& nodes : find_bad_sets(mesh))
+    for (const Effort& effort : kEfforts) {
+      SmoothingOptions options = smoothing;
+      options.untangling_sweeps *= effort.sweeps;
+      mesh.begin();
+      if (effort.from_the_middle) spread(mesh, nodes);
+      const bool done = smoothing::smooth_near(mesh, options, nodes, effort.rings);
+      done ? mesh.commit() : mesh.rollback();
+      if (done) break;
+    }
+}
+
+/// Cuts a quad along the diagonal whose triangles are better, good or bad. Not along one that is an edge already.
+void cut(Mesh& mesh, Index f) {
   const std::vector<Index> n = topology::nodes_of(mesh, f);
   const auto worth = [&](int k) {
+    if (mesh.find(n[k], n[k + 2]) != kNone) return -2.0;
     return std::min(topology::smallest_sine(mesh, {n[k], n[k + 1], n[k + 2]}),
                     topology::smallest_sine(mesh, {n[k], n[k + 2], n[(k + 3) % 4]}));
   };
+  const double first = worth(0), second = worth(1);
+  if (std::max(first, second) < -1) return;
   Index h = mesh.half_edge(f);
-  if (worth(1) > worth(0)) h = mesh.next(h);
-  const Index diagonal = mesh.split_face(h, mesh.next(mesh.next(h)));
-  return mesh.is_valid_face(mesh.face(diagonal)) && mesh.is_valid_face(mesh.face(Mesh::twin(diagonal)));
+  if (second > first) h = mesh.next(h);
+  mesh.split_face(h, mesh.next(mesh.next(h)));
 }
 
 std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
@@ -81,12 +140,19 @@ Patch cut_quads(const Patch& patch) {
   result.quads.clear();
   result.triangles.reserve(patch.triangles.size() + 2 * patch.quads.size());
   const Eigen::Vector3d normal = mean_normal(patch);
+  const auto smaller_half = [&](const std::array<Index, 4>& q, int k) {
+    return std::min(area_vector(patch, q[k], q[k + 1], q[k + 2]).dot(normal),
+                    area_vector(patch, q[k], q[k + 2], q[(k + 3) % 4]).dot(normal));
+  };
+  // In a mesh without folds no diagonal can be the edge of another element.
+  const bool folded = std::any_of(patch.quads.begin(), patch.quads.end(), [&](const std::array<Index, 4>& q) {
+    return !(std::max(smaller_half(q, 0), smaller_half(q, 1)) > 0);
+  });
+  Edges edges = folded ? Edges(patch) : Edges();
   for (const auto& q : patch.quads) {
-    const auto smaller_half = [&](int k) {
-      return std::min(area_vector(patch, q[k], q[k + 1], q[k + 2]).dot(normal),
-                      area_vector(patch, q[k], q[k + 2], q[(k + 3) % 4]).dot(normal));
-    };
-    const int k = smaller_half(1) > smaller_half(0) ? 1 : 0;
+    int k = smaller_half(q, 1) > smaller_half(q, 0) ? 1 : 0;
+    if (folded && edges.has(q[k], q[k + 2]) && !edges.has(q[1 - k], q[3 - k])) k = 1 - k;
+    if (folded) edges.add(q[k], q[k + 2]);
     result.triangles.push_back({q[k], q[k + 1], q[k + 2]});
     result.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
   }
@@ -137,16 +203,17 @@ void mend_quads(Mesh& mesh, const SmoothingOptions& smoothing, const Plane& plan
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v)) nodes.push_back(v);
   topology::remove_doublets(mesh, nodes);
-  for (const std::vector<Index>& bad : nodes_of_bad_quads(mesh)) untangle(mesh, smoothing, bad);
+  untangle_bad_sets(mesh, smoothing);
   const Index faces = mesh.face_slots();
-  for (Index f = 0; f < faces; ++f) {
-    if (!mesh.is_live_face(f) || !mesh.is_quad(f) || mesh.is_valid_face(f)) continue;
-    const std::string corners = corners_of(mesh, plane, f);
-    if (!cut(mesh, f))
-      throw SurfaceError("the quad " + corners +
-                         " is turned over, and no place was found for its nodes where it is not; "
-                         "mesh the surface anew or repair it");
-  }
+  for (Index f = 0; f < faces; ++f)
+    if (mesh.is_quad(f) && is_bad(mesh, f)) cut(mesh, f);
+  untangle_bad_sets(mesh, smoothing);  // triangles are more easily content
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (is_bad(mesh, f) && (mesh.is_quad(f) || mesh.smallest_sine(f) < -kDegenerateSine))
+      throw SurfaceError(
+          "the element " + corners_of(mesh, plane, f) +
+          " is turned over, and no place was found for its nodes where it is not; mesh the surface anew or "
+          "repair it");
 }
 
 }  // namespace qmorph

@@ -19,9 +19,9 @@ kernel::Mesh join_halves(const Region& region, std::size_t triangles);
 /// Sets points and triangles of a region to those of its mesh; quads, convex all of them, are cut in two.
 void take_triangles(const kernel::Mesh& mesh, Region& region);
 
-/// Makes every quad valid: nodes with two neighbours are removed, bad quads are untangled where moving their nodes can do
-/// it, else cut into two triangles.
-/// \throws SurfaceError for a quad where neither helps.
+/// Makes every quad valid: nodes with two neighbours are removed, bad elements are untangled where moving their nodes can
+/// do it, quads that stay bad are cut into two triangles. Triangles without area may be left.
+/// \throws SurfaceError for an element that is turned over all the same.
 void mend_quads(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const Plane& plane);
 
 }  // namespace qmorph
