@@ -226,14 +226,17 @@ Options engine_options(const Request& request) {
 }
 
 /// What comes after the quads: volumes on them, the order of all elements, partitions.
-void finish_model(const Request& request, adapter::OpenedModel& opened) {
+/// \return what is not as it should be
+std::vector<std::string> finish_model(const Request& request, adapter::OpenedModel& opened) {
   const auto note = [&](const std::vector<std::string>& warnings) {
     opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
   };
   if (request.dimension == 3) note(adapter::mesh_volumes());
-  note(adapter::raise_model());
+  const adapter::RaisedModel raised = adapter::raise_model();
+  note(raised.warnings);
   if (!opened.had_mesh) adapter::renumber();
   if (request.partitions > 0) adapter::partition(request.partitions);
+  return raised.bent;
 }
 
 adapter::OpenedModel open(const Request& request, std::ostream& err) {
@@ -286,7 +289,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
     return kNothingToConvert;
   }
 
-  finish_model(request, opened);
+  const std::vector<std::string> bent = finish_model(request, opened);
   if (is_as_it_was(request, plan, opened, model)) even.reset();  // OUT has the curves of IN
 
   const Clock::time_point write_start = Clock::now();
@@ -296,13 +299,15 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   }
   adapter::StagedFile file = adapter::stage(plan);
   const bool written = write(request, plan, opened, model, file);
-  report::RunFacts facts{request.input, plan.path, arguments, status_of(model), even};
+  const int status = bent.empty() ? status_of(model) : kConvertedInPart;
+  report::RunFacts facts{request.input, plan.path, arguments, status, even};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
   commit(request, written ? &file : nullptr, report::stats_json(model, facts));
   print_summary(request, opened, model, facts, err);
+  for (const std::string& what : bent) err << "qmorph: " << what << '\n';
   return facts.exit_status;
 }
 

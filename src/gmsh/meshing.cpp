@@ -141,29 +141,30 @@ std::vector<std::string> mesh_volumes() {
   return warnings;
 }
 
-std::vector<std::string> raise_model() {
+RaisedModel raise_model() {
+  RaisedModel raised;
   const int order = static_cast<int>(get_option("Mesh.ElementOrder"));
   std::vector<int> types;
   ::gmsh::model::mesh::getElementTypes(types, 2);
   const bool is_linear =
       std::all_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 1; });
-  if (order < 2 || !is_linear) return {};
+  if (order < 2 || !is_linear) return raised;
   const StageLog log = run_logged([&] {
     ::gmsh::model::mesh::setOrder(order);
     if (get_option("Mesh.HighOrderOptimize") != 0) ::gmsh::model::mesh::optimize("HighOrder");
   });
   if (!log.errors.empty())
     throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
-  std::vector<std::string> warnings = log.warnings;
+  raised.warnings = log.warnings;
   const ModelMesh mesh = read_model_mesh();
   for (const EntityMesh& entity : mesh.entities) {
     if (entity.dim != 2) continue;
     const std::string where = find_bent_corner(mesh, entity);
     if (!where.empty())
-      warnings.push_back(fmt::format("surface {}: a curved edge of order {} turns an element over {}; refine there",
-                                     entity.tag, order, where));
+      raised.bent.push_back(fmt::format("surface {}: a curved edge of order {} turns an element over {}; refine there",
+                                        entity.tag, order, where));
   }
-  return warnings;
+  return raised;
 }
 
 void partition(int count) {

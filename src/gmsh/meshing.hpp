@@ -19,10 +19,15 @@ bool drop_volumes();
 /// \return Gmsh's warnings
 std::vector<std::string> mesh_volumes();
 
+/// What came of raising the order.
+struct RaisedModel {
+  std::vector<std::string> warnings;  ///< of Gmsh
+  std::vector<std::string> bent;      ///< surfaces whose curved edges turn an element over, and where
+};
+
 /// Gives a linear model the order of Mesh.ElementOrder, with nodes on the geometry. Nothing happens to others.
 /// \throws InputError
-/// \return warnings
-std::vector<std::string> raise_model();
+RaisedModel raise_model();
 
 /// Cuts the current model's mesh into partitions. \throws InputError
 void partition(int count);

@@ -305,6 +305,10 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
     report.reason = error.what();
     return;  // it stays as it is in any case, and there are no figures for it
   }
+  if (task_ == Task::measure) {
+    const std::string where = find_bent_corner(model_.mesh, model_.mesh.entities[entity]);
+    if (!where.empty()) report.reason = "a curved edge turns an element over " + where;
+  }
   try {
     if (task_ == Task::convert) refuse_bad_quads(surface);
   } catch (const SurfaceError& error) {

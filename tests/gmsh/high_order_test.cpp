@@ -128,4 +128,7 @@ TEST_CASE("high order: a curved side that would turn a quad over is refused") {
   CHECK(result.status == 3);
   CHECK(result.err.find("its curved edges would turn an element over at") != std::string::npos);
   CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
+  const Result check = run_qmorph({"--check", directory / "in.msh"});
+  CHECK(check.status == 6);
+  CHECK(check.err.find("surface 1: a curved edge turns an element over at (0, 0, 0)") != std::string::npos);
 }
