@@ -14,7 +14,8 @@ std::vector<std::string> mesh_surfaces();
 /// Removes the elements of all volumes, so that their surfaces may become quads. \return true if there were any
 bool drop_volumes();
 
-/// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra.
+/// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra. Gmsh 4.8 makes
+/// pyramids in one session of a process only: after a finalize() and a second initialize() it crashes.
 /// \throws InputError with Gmsh's own words
 /// \return Gmsh's warnings
 std::vector<std::string> mesh_volumes();
