@@ -40,6 +40,14 @@ bool Cavity::start(Index v) {
   return mesh_.is_free(v) && add_around(v) && make_convex();
 }
 
+bool Cavity::start_with_all() {
+  new_round();
+  faces_.clear();
+  for (Index f = 0; f < mesh_.face_slots(); ++f)
+    if (mesh_.is_live_face(f) && !add(f)) return false;
+  return trace();
+}
+
 bool Cavity::grow(std::size_t most) {
   const std::vector<Index> outline = outline_;
   bool irregular = false;

@@ -14,6 +14,8 @@ class Cavity {
 
   /// The quads around v. False if they are no disc of quads whose inner nodes are free.
   bool start(Index v);
+  /// All faces of the mesh. False as above.
+  bool start_with_all();
   /// Adds the quads around irregular nodes of the outline or, if there are none, around all its nodes; then those without which
   /// the outline would be concave. False if that is no such disc, or has more than `most` quads.
   bool grow(std::size_t most);

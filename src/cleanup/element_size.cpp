@@ -1,5 +1,7 @@
 #include "cleanup/element_size.hpp"
 
+#include <algorithm>
+
 namespace qmorph::cleanup {
 
 ElementSize::ElementSize(const kernel::Mesh& mesh) : mesh_(mesh), size_(mesh.vertex_slots(), 0) {
@@ -20,6 +22,15 @@ double ElementSize::quads_wanted(const std::vector<Index>& quads) const {
     wanted += area / (size * size);
   }
   return wanted;
+}
+
+bool ElementSize::is_uniform(double factor) const {
+  std::vector<double> sizes;
+  for (Index v = 0; v < mesh_.vertex_slots(); ++v)
+    if (mesh_.is_live_vertex(v)) sizes.push_back(size_[v]);
+  std::sort(sizes.begin(), sizes.end());
+  const std::size_t few = sizes.size() / 20;
+  return !sizes.empty() && sizes[sizes.size() - 1 - few] <= factor * sizes[few];
 }
 
 double ElementSize::mean(const std::vector<Index>& nodes) const {

@@ -13,6 +13,8 @@ class ElementSize {
 
   /// Quads of the wanted size that have the area of these quads.
   double quads_wanted(const std::vector<Index>& quads) const;
+  /// Sizes of the nodes differ by no more than this factor, the largest and smallest few aside.
+  bool is_uniform(double factor) const;
   double mean(const std::vector<Index>& nodes) const;
   /// For new nodes: the size of those that they replace.
   void set(Index v, double size);

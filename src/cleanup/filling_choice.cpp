@@ -11,6 +11,8 @@ namespace {
 constexpr double kFewest = 0.75, kMost = 1.7;
 /// Three and five corners are looked for among so many places of the outline.
 constexpr std::size_t kLikelyCorners = 9;
+/// Four corners are looked for everywhere on an outline that is no longer than this.
+constexpr int kShortOutline = 100;
 
 /// What each place of an outline costs as a side and as a corner of a filling.
 struct Places {
@@ -44,11 +46,15 @@ class Chooser {
       : places_(places), n_(int(places.corner_cost.size())), most_cost_(most_cost), quads_wanted_(quads_wanted) {}
 
   std::vector<FillingChoice> run() {
-    const int half = n_ / 2;
-    for (int i = 0; i < half; ++i)
-      for (int j = i + 1; j < half; ++j) offer({i, j, i + half, j + half});
     const std::vector<int> likely = likely_corners();
     std::vector<int> picked;
+    if (n_ <= kShortOutline) {
+      const int half = n_ / 2;
+      for (int i = 0; i < half; ++i)
+        for (int j = i + 1; j < half; ++j) offer({i, j, i + half, j + half});
+    } else {
+      pick(likely, 0, 4, picked);
+    }
     pick(likely, 0, 3, picked);
     pick(likely, 0, 5, picked);
     std::stable_sort(found_.begin(), found_.end(), [](const FillingChoice& a, const FillingChoice& b) {

@@ -17,7 +17,7 @@ struct FillingChoice {
 };
 
 /// Fillings of the cavity that cost `most_cost` at most and whose number of quads is near `quads_wanted`; best first.
-/// Cost: quadratic in the length of the outline.
+/// Cost: n log n for an outline of n edges.
 std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
                                            double most_cost, double quads_wanted);
 

@@ -17,8 +17,7 @@ int gain_of_losing_edge(const Mesh& mesh, const Score& score, Index v) {
 }
 
 int close_gain(const Mesh& mesh, const Score& score, Index h) {
-  const Index a = mesh.origin(h), b = mesh.target(h), c = mesh.target(mesh.next(h)),
-              d = mesh.origin(mesh.prev(h));
+  const Index a = mesh.origin(h), b = mesh.target(h), c = mesh.target(mesh.next(h)), d = mesh.origin(mesh.prev(h));
   const int merged = int(mesh.valence(a) + mesh.valence(c)) - 2 - score.ideal(c);
   int doublets = 0;
   for (Index v : {b, d}) doublets += mesh.is_free(v) && mesh.valence(v) == 3;
@@ -68,17 +67,16 @@ void add_opens(const Mesh& mesh, const Score& score, Index v, int least, std::ve
   for (int i = 0; i < n; ++i)
     for (int between = 1; between <= n - 3; ++between) {
       const int j = (i + between + 1) % n;
-      if (mesh.is_boundary(v) && j <= i) continue;  // the boundary edges, 0 and n - 1, stay at v
+      if (mesh.is_boundary(v) && j <= i) continue;                      // the boundary edges, 0 and n - 1, stay at v
       if (!mesh.is_boundary(v) && between + 2 > n - between) continue;  // the mirror image has it
       const int kept = n - between - score.ideal(v), made = between + 2 - 4;
-      const int gain = score.cost(v) - kept * kept - made * made +
-                       score.gain(mesh.target(spokes[i]), 1) + score.gain(mesh.target(spokes[j]), 1);
+      const int gain = score.cost(v) - kept * kept - made * made + score.gain(mesh.target(spokes[i]), 1) +
+                       score.gain(mesh.target(spokes[j]), 1);
       if (gain >= least) out.push_back({Action::open, spokes[i], spokes[j], gain});
     }
 }
 
-void add_star_removals(const Mesh& mesh, const Score& score, Index v, int least,
-                       std::vector<Candidate>& out) {
+void add_star_removals(const Mesh& mesh, const Score& score, Index v, int least, std::vector<Candidate>& out) {
   if (!mesh.is_free(v) || mesh.valence(v) != 3) return;
   Index h = mesh.out(v);
   for (int i = 0; i < 3; ++i, h = mesh.rotate_ccw(h)) {
@@ -90,8 +88,8 @@ void add_star_removals(const Mesh& mesh, const Score& score, Index v, int least,
     // The diagonal joins a neighbour of v with the corner of the face across from it.
     const Index k = mesh.rotate_ccw(h), l = mesh.rotate_ccw(k);
     const Index across = mesh.target(mesh.next(k));  // between k and l
-    const int gain = score.cost(v) + score.gain(mesh.target(k), -1) + score.gain(mesh.target(l), -1) +
-                     score.gain(across, 1);
+    const int gain =
+        score.cost(v) + score.gain(mesh.target(k), -1) + score.gain(mesh.target(l), -1) + score.gain(across, 1);
     if (gain >= least) out.push_back({Action::remove_star, h, kNone, gain});
   }
 }
@@ -112,8 +110,7 @@ bool turn(Mesh& mesh, Index h, bool left) {
   const Index c = mesh.next(mesh.next(h)), d = mesh.prev(h);
   const Index t = Mesh::twin(h);
   const Index e = mesh.next(mesh.next(t)), g = mesh.prev(t);
-  if (left ? mesh.find(mesh.origin(c), mesh.origin(e)) != kNone
-           : mesh.find(mesh.origin(d), mesh.origin(g)) != kNone)
+  if (left ? mesh.find(mesh.origin(c), mesh.origin(e)) != kNone : mesh.find(mesh.origin(d), mesh.origin(g)) != kNone)
     return false;
   mesh.join_faces(h);
   mesh.split_face(left ? c : d, left ? e : g);
@@ -158,8 +155,7 @@ std::vector<Candidate> candidates_around(const Mesh& mesh, const Score& score, I
   } while (h != mesh.out(v));
   add_opens(mesh, score, v, least, found);
   add_star_removals(mesh, score, v, least, found);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   return found;
 }
 
@@ -167,14 +163,17 @@ bool apply(Mesh& mesh, const Candidate& c, std::vector<Index>& nodes) {
   collect_around(mesh, c.h, nodes);
   if (c.k != kNone) collect_around(mesh, c.k, nodes);
   switch (c.action) {
-    case Action::close: return close(mesh, c.h, nodes);
-    case Action::turn_left: return turn(mesh, c.h, true);
-    case Action::turn_right: return turn(mesh, c.h, false);
+    case Action::close:
+      return close(mesh, c.h, nodes);
+    case Action::turn_left:
+      return turn(mesh, c.h, true);
+    case Action::turn_right:
+      return turn(mesh, c.h, false);
     case Action::remove_star:
       collect_around(mesh, mesh.rotate_ccw(c.h), nodes);
       return remove_star(mesh, c.h);
     case Action::open: {
-      const Vec2 &p = mesh.point(mesh.origin(c.h));
+      const Vec2& p = mesh.point(mesh.origin(c.h));
       Vec2 centre = Vec2::Zero();
       int spokes = 0;
       for (Index e = mesh.rotate_ccw(c.h); e != c.k; e = mesh.rotate_ccw(e))

@@ -13,11 +13,11 @@ namespace qmorph::cleanup {
 inline constexpr Index kMostValence = 16;
 
 enum class Action {
-  close,         ///< merge origin(h) into the node opposite in face(h) [Canann98]
-  turn_left,     ///< the edge of h, between two quads, moves on counter-clockwise
-  turn_right,    ///< ... clockwise
-  open,          ///< open a quad at origin(h) between the edges of h and k
-  remove_star,   ///< the three quads around the 3-valent origin(h) become two
+  close,        ///< merge origin(h) into the node opposite in face(h) [Canann98]
+  turn_left,    ///< the edge of h, between two quads, moves on counter-clockwise
+  turn_right,   ///< ... clockwise
+  open,         ///< open a quad at origin(h) between the edges of h and k
+  remove_star,  ///< the three quads around the 3-valent origin(h) become two
 };
 
 struct Candidate {
@@ -27,8 +27,7 @@ struct Candidate {
 };
 
 /// Changes around v that lower the score by at least `least_gain`, best first.
-std::vector<Candidate> candidates_around(const kernel::Mesh& mesh, const Score& score, Index v,
-                                         int least_gain);
+std::vector<Candidate> candidates_around(const kernel::Mesh& mesh, const Score& score, Index v, int least_gain);
 
 /// Carries a change out; topology only. Appends the nodes around it. False, perhaps half-way, if it is
 /// impossible: to be called in a transaction.

@@ -16,10 +16,12 @@ constexpr int kMostGrowth = 6;
 constexpr int kMostTries = 3;  ///< fillings of one cavity
 constexpr int kRings = 2;
 
+constexpr double kFloor = 0.4;
+
 /// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower before), and
 /// the mean hardly.
 bool is_good_enough(const Worth& before, const Worth& after) {
-  constexpr double kFloor = 0.4, kMeanLoss = 0.02;
+  constexpr double kMeanLoss = 0.02;
   return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean - kMeanLoss;
 }
 
@@ -40,10 +42,22 @@ class Replacing {
       queued_[v] = 0;
       if (is_defect(v)) improve(v);
     }
+    replace_all();
     return changes_;
   }
 
  private:
+  /// A region with three to five sides may have a filling as a whole, which no cavity inside can find.
+  void replace_all() {
+    constexpr double kUniform = 1.6;  // a filling does not know of sizes inside
+    const auto is_better = [](const Worth& before, const Worth& after) {
+      return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean;
+    };
+    bool defects = false;
+    for (Index v = 0; v < mesh_.vertex_slots() && !defects; ++v) defects = is_defect(v);
+    if (defects && size_.is_uniform(kUniform) && cavity_.start_with_all()) replace(is_better);
+  }
+
   bool is_defect(Index v) const { return mesh_.is_live_vertex(v) && mesh_.is_free(v) && score_.excess(v) != 0; }
 
   void enqueue(Index v) {
@@ -56,8 +70,7 @@ class Replacing {
   void improve(Index v) {
     if (mesh_.valence(v) > kMostValence || !cavity_.start(v)) return;
     for (int step = 0; step < kMostGrowth; ++step) {
-      if (replace()) {
-        ++changes_;
+      if (replace(is_good_enough)) {
         for (Index u : nodes_)
           if (mesh_.is_live_vertex(u)) enqueue(u);
         return;
@@ -66,7 +79,8 @@ class Replacing {
     }
   }
 
-  bool replace() {
+  template <class Accept>
+  bool replace(const Accept& accept) {
     std::vector<Index> outline;
     for (Index h : cavity_.outline()) outline.push_back(mesh_.origin(h));
     std::vector<Index> near = cavity_.inner_nodes();
@@ -81,7 +95,8 @@ class Replacing {
       const auto edit = [&](std::vector<Index>& nodes) {
         return fill(mesh_, cavity_.outline(), cavity_.faces(), choice.filling, nodes);
       };
-      if (!attempt(mesh_, relaxing_, kRings, near, nodes_, edit, is_good_enough)) continue;
+      if (!attempt(mesh_, relaxing_, kRings, near, nodes_, edit, accept)) continue;
+      ++changes_;
       std::sort(outline.begin(), outline.end());
       for (Index v : nodes_)
         if (!std::binary_search(outline.begin(), outline.end(), v)) size_.set(v, size);

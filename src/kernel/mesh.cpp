@@ -1,5 +1,7 @@
 #include "kernel/mesh.hpp"
 
+#include <algorithm>
+
 #include <cassert>
 
 #include "geometry/predicates.hpp"
@@ -381,11 +383,11 @@ std::vector<Index> Mesh::pillow(const std::vector<Index>& loop, double share) {
 }
 
 Index Mesh::make_face(const std::vector<Index>& ring, const std::vector<Index>& inside) {
-  const auto on_ring = [&](Index h) {
-    for (Index r : ring)
-      if (r == h) return true;
-    return false;
-  };
+  std::vector<Index> sides = ring, corners;
+  for (Index r : ring) corners.push_back(origin(r));
+  std::sort(sides.begin(), sides.end());
+  std::sort(corners.begin(), corners.end());
+  const auto on_ring = [&](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
   std::vector<Index> inner;  // one half-edge of every edge that goes
   std::vector<Index> origins;
   for (Index f : inside) {
@@ -404,9 +406,7 @@ Index Mesh::make_face(const std::vector<Index>& ring, const std::vector<Index>& 
     if (face(out(v)) != kNone) set_out(v, r);
   }
   for (Index v : origins) {
-    bool keep = !is_live_vertex(v);
-    for (Index r : ring) keep = keep || origin(r) == v;
-    if (!keep) kill_vertex(v);
+    if (is_live_vertex(v) && !std::binary_search(corners.begin(), corners.end(), v)) kill_vertex(v);
   }
   for (Index h : inner) kill_edge(h);
   for (Index f : inside) kill_face(f);

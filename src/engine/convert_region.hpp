@@ -1,0 +1,19 @@
+#pragma once
+/// One region of triangles becomes quads.
+
+#include "engine/pipeline.hpp"
+#include "engine/regions.hpp"
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+#include "qmorph/stats.hpp"
+
+namespace qmorph {
+
+/// All stages on one region. In a small region a single decision of the front decides how good the result is, and nobody can tell
+/// which: if the result is poor, other constants of the front are tried as well (`Options::retry_triangles`), and
+/// the best result is taken. `snapshots` may be null.
+/// \throws SurfaceError if no valid result was found
+kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionStats& stats,
+                            Snapshots* snapshots);
+
+}  // namespace qmorph
