@@ -105,7 +105,7 @@ struct Options {
 =======
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
   /// take no more triangles than this; the best result counts. 0: never.
-  std::size_t retry_triangles = 3000;
+  std::size_t retry_triangles = 2000;
   bool check_each_step = false;  ///< validate the mesh after every step: slow, for tests
   bool measure_stages = false;   ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
 >>>>>>> 40900f1 (Whole regions with a filling, exact grids, and other constants of the front where a small region came out poor)

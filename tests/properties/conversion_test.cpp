@@ -24,9 +24,10 @@ std::uint64_t domain_count() {
 }
 
 /// What does not hold for the conversion of a patch; an exception is one line too.
-std::vector<std::string> broken_conversion(const Patch& patch, QuadMesh* result = nullptr) {
+std::vector<std::string> broken_conversion(const Patch& patch, QuadMesh* result = nullptr,
+                                           const qmorph::Options& options = {}) {
   try {
-    QuadMesh mesh = qmorph::convert(patch);
+    QuadMesh mesh = qmorph::convert(patch, options);
     auto broken = qmorph::test::broken_invariants(patch, mesh);
     const auto regions = qmorph::test::count_regions(patch);
     if (mesh.stats.regions != regions.regions || mesh.stats.odd_regions != regions.odd)
@@ -54,7 +55,9 @@ bool same_bytes(const QuadMesh& a, const QuadMesh& b) {
 TEST_CASE("1000 random domains convert without breaking an invariant") {
   for (std::uint64_t seed = 0; seed < domain_count(); ++seed) {
     const Domain domain = random_domain(seed);
-    const auto broken = broken_conversion(domain.patch);
+    qmorph::Options options;  // tries with other constants take most of the time; some domains are enough for them
+    if (seed % 10 != 0) options.retry_triangles = 0;
+    const auto broken = broken_conversion(domain.patch, nullptr, options);
     if (broken.empty()) continue;
     CAPTURE(seed);
     CAPTURE(domain.kind);
