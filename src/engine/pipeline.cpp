@@ -71,11 +71,6 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
   cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing);
-<<<<<<< HEAD
-  if (options_.smoothing.method == SmoothingMethod::shape_energy)
-    smoothing::raise_worst_corners(mesh, options_.smoothing);
-=======
->>>>>>> 40900f1 (Whole regions with a filling, exact grids, and other constants of the front where a small region came out poor)
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting);
@@ -83,7 +78,8 @@ void Pipeline::finish(kernel::Mesh& mesh) {
     smoothing::smooth(mesh, options_.smoothing);
     cleanup::repair(mesh, options_.smoothing);
   }
-  if (!smoothing::snap_to_grid(mesh)) smoothing::raise_worst_corners(mesh, options_.smoothing);
+  if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
+    smoothing::raise_worst_corners(mesh, options_.smoothing);
   end_stage(Stage::repair, mesh, stats_.cleanup_seconds);
 }
 
