@@ -105,9 +105,17 @@ class BandFinder {
     return true;
   }
 
+  /// Whether the piece, or the next one, ends at the first rung. A ring is left open there: its ends would share nodes or an
+  /// element, and a path from one to the other could take the wrong way.
+  bool closes(const Band& band, const Piece& piece) const {
+    Piece beyond;
+    return piece.exit == band.first || (trace(piece.exit, beyond) && beyond.exit == band.first);
+  }
+
   bool add_piece(Band& band) {
     Piece piece;
     if (!trace(band.last, piece)) return false;
+    if (closes(band, piece)) return false;
     if (seen_.size() < mesh_.face_slots()) seen_.resize(mesh_.face_slots(), 0);
     for (Index f : piece.faces) seen_[f] = 1;
     band.faces.insert(band.faces.end(), piece.faces.begin(), piece.faces.end());

@@ -1,0 +1,96 @@
+// Irregular nodes that cancel each other vanish, the boundary stays.
+#include "cleanup/replace_cavities.hpp"
+
+#include <doctest/doctest.h>
+
+#include "cleanup/rings.hpp"
+#include "smoothing/smooth.hpp"
+
+namespace {
+
+using namespace qmorph;
+using namespace qmorph::test;
+using cleanup::replace_cavities;
+
+/// A grid of 12 x 12 cells, of which a block of 4 x 4 is three grids around a node: nodes of three and five edges around it.
+Mesh grid_with_star() {
+  Mesh mesh = grid_with_block(12, 12, 4, 4, 4, {0, 5, 11});
+  smoothing::smooth(mesh, {});
+  return mesh;
+}
+
+/// A grid of which the edge between two cells runs the other way: two nodes with three edges, two with five.
+Mesh grid_with_turned_edge(Index cells) {
+  Mesh mesh = grid_with_block(cells, cells, cells / 2 - 1, 2, 1, {1, 2, 4, 5});
+  smoothing::smooth(mesh, {});
+  return mesh;
+}
+
+std::vector<Vec2> boundary_points(const Mesh& mesh) {
+  std::vector<Vec2> points;
+  for (const auto& [a, b] : boundary_of(mesh)) points.push_back(mesh.point(a));
+  return points;
+}
+
+void check_that_all_vanish(Mesh mesh) {
+  REQUIRE(irregular_nodes(mesh) >= 4);
+  const Edges boundary = boundary_of(mesh);
+  const std::vector<Vec2> points = boundary_points(mesh);
+  CHECK(replace_cavities(mesh, {}) > 0);
+  CHECK(irregular_nodes(mesh) == 0);
+  CHECK(defect(mesh) == "");
+  CHECK(boundary_of(mesh) == boundary);
+  CHECK(boundary_points(mesh) == points);
+  CHECK(count_quads(mesh) == count(mesh).faces);
+}
+
+}  // namespace
+
+TEST_CASE("replace cavities: pairs of three and five edges in a grid vanish") {
+  check_that_all_vanish(grid_with_turned_edge(8));
+}
+
+TEST_CASE("replace cavities: irregular nodes that are some edges apart vanish together") {
+  check_that_all_vanish(grid_with_star());
+}
+
+TEST_CASE("replace cavities: a grid stays as it is, to the bit") {
+  Mesh mesh = quad_grid(6, 5);
+  const Snapshot before = snapshot(mesh);
+  CHECK(replace_cavities(mesh, {}) == 0);
+  CHECK(snapshot(mesh) == before);
+}
+
+TEST_CASE("replace cavities: the one irregular node that a polygon of three or five sides needs stays") {
+  for (const auto& sides : {std::vector<int>{6, 6, 6}, {6, 6, 6, 6, 6}}) {
+    Mesh mesh = filled_polygon(sides);
+    smoothing::smooth(mesh, {});
+    replace_cavities(mesh, {});
+    CHECK(irregular_nodes(mesh) == 1);
+    CHECK(defect(mesh) == "");
+  }
+}
+
+TEST_CASE("replace cavities: a fixed node stays where it is, even if it is irregular") {
+  Mesh mesh = grid_with_turned_edge(8);
+  std::vector<std::pair<Index, Vec2>> fixed;
+  for (Index v = 0; v < mesh.vertex_slots(); ++v)
+    if (mesh.is_live_vertex(v) && !mesh.is_boundary(v) && mesh.valence(v) == 5) {
+      mesh.set_fixed(v);
+      fixed.emplace_back(v, mesh.point(v));
+    }
+  REQUIRE(fixed.size() == 2);
+  replace_cavities(mesh, {});
+  for (const auto& [v, p] : fixed) {
+    REQUIRE(mesh.is_live_vertex(v));
+    CHECK(mesh.point(v) == p);
+  }
+  CHECK(defect(mesh) == "");
+}
+
+TEST_CASE("replace cavities: twice the same mesh gives twice the same result") {
+  Mesh a = grid_with_star(), b = grid_with_star();
+  replace_cavities(a, {});
+  replace_cavities(b, {});
+  CHECK(snapshot(a) == snapshot(b));
+}

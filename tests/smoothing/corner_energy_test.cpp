@@ -1,0 +1,80 @@
+// The worst corners rise, and no corner falls under what the worst was.
+#include "smoothing/corner_energy.hpp"
+
+#include <doctest/doctest.h>
+
+#include "cleanup/rings.hpp"
+#include "smoothing/smooth.hpp"
+
+namespace {
+
+using namespace qmorph;
+using namespace qmorph::test;
+using smoothing::raise_worst_corners;
+
+double worst_sine(const Mesh& mesh) {
+  double worst = 1;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f)) worst = std::min(worst, mesh.smallest_sine(f));
+  return worst;
+}
+
+/// Quads whose nodes, boundary too, are off the grid; valid.
+Mesh jittered_quads(Rng& rng) {
+  Mesh mesh = quad_grid(Index(rng.range(3, 8)), Index(rng.range(3, 8)));
+  for (Index v = 0; v < mesh.vertex_slots(); ++v)
+    mesh.set_point(v, mesh.point(v) + Vec2(rng.between(-0.24, 0.24), rng.between(-0.24, 0.24)));
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("raise corners: a node that was pushed aside comes back, and the worst corner is a good one then") {
+  Mesh mesh = quad_grid(4, 4);
+  mesh.set_point(12, Vec2(2.45, 2.4));
+  REQUIRE(worst_sine(mesh) < 0.5);
+  raise_worst_corners(mesh, {});
+  CHECK(worst_sine(mesh) > 0.75);
+}
+
+TEST_CASE("raise corners: in any mesh the smallest sine rises or stays, and boundary and fixed nodes stay") {
+  int raised = 0;
+  constexpr int kMeshes = 60;
+  for (int seed = 0; seed < kMeshes; ++seed) {
+    CAPTURE(seed);
+    Rng rng{std::uint64_t(seed)};
+    Mesh mesh = jittered_quads(rng);
+    if (seed % 2 == 0) smoothing::smooth(mesh, {});
+    for (Index v = 0; v < mesh.vertex_slots(); v += 7) mesh.set_fixed(v);
+    const Mesh start = mesh;
+    raise_worst_corners(mesh, {});
+    CHECK(worst_sine(mesh) >= worst_sine(start));
+    raised += worst_sine(mesh) > worst_sine(start) + 1e-3;
+    CHECK(defect(mesh) == "");
+    CHECK(faces_of(mesh) == faces_of(start));
+    for (Index v = 0; v < mesh.vertex_slots(); ++v)
+      if (!start.is_free(v)) CHECK(mesh.point(v) == start.point(v));
+  }
+  CHECK(raised > kMeshes / 4);
+}
+
+TEST_CASE("raise corners: good corners stay as they are, to the bit") {
+  Mesh mesh = quad_grid(5, 5);
+  mesh.set_point(14, mesh.point(14) + Vec2(0.1, 0.05));
+  const Snapshot before = snapshot(mesh);
+  SmoothingOptions options;
+  raise_worst_corners(mesh, options);
+  CHECK(snapshot(mesh) == before);
+  options.good_quality = 0.999;
+  raise_worst_corners(mesh, options);
+  CHECK_FALSE(snapshot(mesh) == before);
+}
+
+TEST_CASE("raise corners: an element that is turned over makes no node move to where others are worse") {
+  Mesh mesh = quad_grid(4, 4);
+  mesh.set_point(12, Vec2(3.4, 2.2));
+  const double before = worst_sine(mesh);
+  REQUIRE(before < 0);
+  raise_worst_corners(mesh, {});
+  CHECK(worst_sine(mesh) >= before);
+}
