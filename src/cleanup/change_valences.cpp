@@ -1,8 +1,8 @@
 #include "cleanup/change_valences.hpp"
 
 #include <algorithm>
-#include <deque>
 
+#include "cleanup/node_queue.hpp"
 #include "cleanup/transaction.hpp"
 
 namespace qmorph::cleanup {
@@ -24,20 +24,17 @@ class ChangingValences {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) enqueue(v);
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
     while (!queue_.empty() && most-- > 0) {
-      const Index v = queue_.front();
-      queue_.pop_front();
-      queued_[v] = 0;
-      if (mesh_.is_live_vertex(v) && score_.excess(v) != 0) improve(v);
+      const Index v = queue_.pop();
+      if (is_defect(v)) improve(v);
     }
     return changes_;
   }
 
  private:
+  bool is_defect(Index v) const { return mesh_.is_live_vertex(v) && score_.excess(v) != 0; }
+
   void enqueue(Index v) {
-    if (v >= queued_.size()) queued_.resize(mesh_.vertex_slots() + 1, 0);
-    if (queued_[v] || !mesh_.is_live_vertex(v) || score_.excess(v) == 0) return;
-    queued_[v] = 1;
-    queue_.push_back(v);
+    if (is_defect(v)) queue_.push(v);
   }
 
   void improve(Index v) {
@@ -71,8 +68,7 @@ class ChangingValences {
   kernel::Mesh& mesh_;
   Score score_;
   SmoothingOptions relaxing_;
-  std::deque<Index> queue_;
-  std::vector<char> queued_;
+  NodeQueue queue_;
   std::vector<Index> nodes_;
   std::size_t changes_ = 0;
 };

@@ -1,11 +1,11 @@
 #include "cleanup/replace_cavities.hpp"
 
 #include <algorithm>
-#include <deque>
 
 #include "cleanup/cavity.hpp"
 #include "cleanup/element_size.hpp"
 #include "cleanup/filling_choice.hpp"
+#include "cleanup/node_queue.hpp"
 #include "cleanup/transaction.hpp"
 
 namespace qmorph::cleanup {
@@ -37,9 +37,7 @@ class Replacing {
     for (Index v = 0; v < mesh_.vertex_slots(); ++v) enqueue(v);
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
     while (!queue_.empty() && most-- > 0) {
-      const Index v = queue_.front();
-      queue_.pop_front();
-      queued_[v] = 0;
+      const Index v = queue_.pop();
       if (is_defect(v)) improve(v);
     }
     replace_all();
@@ -61,10 +59,7 @@ class Replacing {
   bool is_defect(Index v) const { return mesh_.is_live_vertex(v) && mesh_.is_free(v) && score_.excess(v) != 0; }
 
   void enqueue(Index v) {
-    if (v >= queued_.size()) queued_.resize(mesh_.vertex_slots() + 1, 0);
-    if (queued_[v] || !is_defect(v)) return;
-    queued_[v] = 1;
-    queue_.push_back(v);
+    if (is_defect(v)) queue_.push(v);
   }
 
   void improve(Index v) {
@@ -110,8 +105,7 @@ class Replacing {
   ElementSize size_;
   Cavity cavity_;
   SmoothingOptions relaxing_;
-  std::deque<Index> queue_;
-  std::vector<char> queued_;
+  NodeQueue queue_;
   std::vector<Index> nodes_;
   std::size_t changes_ = 0;
 };
