@@ -96,16 +96,18 @@ class RegionConverter {
   Attempt best_of_variants(Attempt best) {
     // Under the lower bound it is the boundary that is poor, and no try changes that.
     constexpr double kGood = 2.2, kHopeless = 0.05;
-    std::size_t triangles = region_.triangles.size();
+    constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
+    const std::size_t size = count_faces(start_, 3);   // fans may have been refined
+    std::size_t triangles = size;
     if (2 * triangles > options_.retry_triangles) return best;
     Worth worth = worth_of(best.mesh);
     if (worth.least < kHopeless) return best;
     for (const FrontOptions& front : variants_of(options_.front)) {
-      triangles += region_.triangles.size();
+      triangles += size;
       if (triangles > options_.retry_triangles || worth.sum() > kGood) break;
       Options options = options_;
       options.front = front;
-      Attempt other = attempt(options, true);
+      Attempt other = attempt(options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = worth_of(other.mesh);
       if (!other.fault.empty() || others.sum() <= worth.sum()) continue;
       best = std::move(other);
@@ -114,10 +116,14 @@ class RegionConverter {
     return best;
   }
 
-  Attempt attempt(const Options& options, bool with_front) {
+  Attempt attempt(const Options& options, bool with_front, std::size_t most_faces = std::size_t(-1)) {
     Attempt result{start_, before_, {}, {}};
     Pipeline pipeline(options, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
     if (with_front) pipeline.advance_front(result.mesh);
+    if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
+      result.fault = "too many elements";
+      return result;
+    }
     pipeline.finish(result.mesh);
     result.fault = find_fault(result.mesh, region_, plane_);
     return result;

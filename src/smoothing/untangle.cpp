@@ -112,7 +112,7 @@ double guarded_sine_around(const kernel::Mesh& mesh, Index v) {
 
 bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
   if (!mesh.is_free(v)) return false;
-  constexpr int kDirections = 8, kShrinkings = 6;
+  constexpr int kDirections = 8, kShrinkings = 6, kMostRounds = 200;
   constexpr double kFirstStep = 0.25, kLeastGain = 1e-6;
   double shortest = std::numeric_limits<double>::infinity();
   Index h = mesh.out(v);
@@ -130,7 +130,7 @@ bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
   static constexpr double kCompass[kDirections][2] = {
       {1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal},
       {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
-  for (int shrinking = 0; shrinking < kShrinkings;) {
+  for (int shrinking = 0, rounds = 0; shrinking < kShrinkings && rounds < kMostRounds; ++rounds) {
     const Vec2 centre = best;
     for (const auto& d : kCompass) {
       mesh.set_point(v, centre + step * Vec2(d[0], d[1]));
