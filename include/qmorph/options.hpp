@@ -79,11 +79,11 @@ struct SmoothingOptions {
   /// Of the smoothing of the whole mesh; what cleanup relaxes around a change always uses the energy.
   SmoothingMethod method = SmoothingMethod::shape_energy;
   ThesisSmoothing thesis;
-  int iterations = 8;               ///< passes over the nodes that are still active
-  double move_tolerance = 1e-3;     ///< a move shorter than this times the local edge length ends a node's activity
-  int untangling_sweeps = 40;       ///< passes of the regularised energy over a patch with invalid elements
-  double good_quality = 0.75;       ///< corners with a smaller sine are raised in the end, at the cost of better ones
-  double target_quality = 0.3;      ///< elements with a smaller scaled Jacobian are optimised one node at a time
+  int iterations = 8;            ///< passes over the nodes that are still active
+  double move_tolerance = 1e-3;  ///< a move shorter than this times the local edge length ends a node's activity
+  int untangling_sweeps = 40;    ///< passes of the regularised energy over a patch with invalid elements
+  double good_quality = 0.75;    ///< corners with a smaller sine are raised in the end, at the cost of better ones
+  double target_quality = 0.3;   ///< elements with a smaller scaled Jacobian are optimised one node at a time
 };
 
 /// All options of one conversion.
@@ -93,9 +93,10 @@ struct Options {
   SmoothingOptions smoothing;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
   /// take no more triangles than this; the best result counts. 0: never.
-  std::size_t retry_triangles = 2000;
-  bool check_each_step = false;     ///< look at what every operation has made, and in the front at the whole mesh: slow, for tests
-  bool measure_stages = false;      ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
+  std::size_t retry_triangles = 4000;
+  bool check_each_step =
+      false;  ///< look at what every operation has made, and in the front at the whole mesh: slow, for tests
+  bool measure_stages = false;  ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
   /// Called now and then with the stage's name and the share done (0 to 1). May be empty.
   std::function<void(std::string_view stage, double share)> progress;
 };

@@ -5,17 +5,7 @@
 namespace qmorph::cleanup {
 
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
-  std::vector<Index> faces;
-  for (Index v : nodes) {
-    if (!mesh.is_live_vertex(v)) continue;
-    Index h = mesh.out(v);
-    do {
-      if (mesh.face(h) != kNone) faces.push_back(mesh.face(h));
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(v));
-  }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  const std::vector<Index> faces = topology::faces_around(mesh, nodes);
   Worth worth;
   double sum = 0;
   for (Index f : faces) {

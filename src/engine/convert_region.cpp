@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/prepare.hpp"
 #include "qmorph/error.hpp"
@@ -29,9 +30,11 @@ double shape(const kernel::Mesh& mesh, Index f) {
 }
 
 struct Worth {
-  double least = 1;  ///< smallest scaled Jacobian
+  double least = 1;  ///< smallest scaled Jacobian of a quad
   double mean = 0;   ///< of shapes
-  double sum() const { return least + 2 * mean; }
+  /// Once the worst quad is good enough for every solver, the others count.
+  double sum() const { return std::min(least, kGoodEnough) + 2 * mean; }
+  static constexpr double kGoodEnough = 0.4;
 };
 
 Worth worth_of(const kernel::Mesh& mesh) {
@@ -39,7 +42,7 @@ Worth worth_of(const kernel::Mesh& mesh) {
   std::size_t faces = 0;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f)) continue;
-    worth.least = std::min(worth.least, mesh.smallest_sine(f));
+    if (mesh.is_quad(f)) worth.least = std::min(worth.least, mesh.smallest_sine(f));
     worth.mean += shape(mesh, f), ++faces;
   }
   if (faces > 0) worth.mean /= double(faces);
@@ -137,11 +140,32 @@ class RegionConverter {
   kernel::Mesh input_;  ///< as it came, if stages are measured
 };
 
+/// The same with an ear set aside: the one triangle that an odd boundary leaves.
+std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
+                                           const ConversionStats& before) {
+  if (region.boundary_sides % 2 == 0 || 2 * region.triangles.size() > options.retry_triangles) return {};
+  const std::optional<Ear> ear = sharpest_ear(region);
+  if (!ear) return {};
+  try {
+    const Region rest = cut_off(region, *ear);
+    Attempt result = RegionConverter(rest, plane, options, before).run();
+    put_back(result.mesh, *ear);
+    ++result.stats.leftover_triangles;  // the front leaves the ear, too
+    for (auto& snapshot : result.snapshots)
+      if (snapshot) put_back(*snapshot, *ear);
+    return result;
+  } catch (const SurfaceError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionStats& stats,
                             Snapshots* snapshots) {
   Attempt best = RegionConverter(region, plane, options, stats).run();
+  if (auto other = convert_without_ear(region, plane, options, stats))
+    if (worth_of(other->mesh).sum() > worth_of(best.mesh).sum()) best = std::move(*other);
   stats = std::move(best.stats);
   if (snapshots) *snapshots = std::move(best.snapshots);
   return std::move(best.mesh);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "engine/prepare.hpp"
 #include "geometry/predicates.hpp"
 #include "qmorph/error.hpp"
 #include "smoothing/smooth.hpp"
@@ -124,13 +125,6 @@ void cut(Mesh& mesh, Index f) {
   Index h = mesh.half_edge(f);
   if (second > first) h = mesh.next(h);
   mesh.split_face(h, mesh.next(mesh.next(h)));
-}
-
-std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
-  std::string text;
-  for (Index v : topology::nodes_of(mesh, f))
-    text += (text.empty() ? "" : ", ") + describe(plane.to_space(mesh.point(v)));
-  return text;
 }
 
 }  // namespace

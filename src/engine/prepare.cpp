@@ -36,14 +36,14 @@ bool move_away(Mesh& mesh, Index f) {
   return done;
 }
 
+}  // namespace
+
 std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
   std::string text;
   for (Index v : topology::nodes_of(mesh, f))
     text += (text.empty() ? "" : ", ") + describe(plane.to_space(mesh.point(v)));
   return text;
 }
-
-}  // namespace
 
 void repair_input(Mesh& mesh, const Plane& plane) {
   std::vector<Index> flat;

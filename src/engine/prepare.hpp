@@ -16,4 +16,7 @@ void repair_input(kernel::Mesh& mesh, const Plane& plane);
 /// can be turned into better ones, and rectangles may be as thin as they like, but a front has no room there.
 std::string find_needles(const kernel::Mesh& mesh, const Plane& plane);
 
+/// "(x, y, z), (x, y, z), ...", the corners of a face, for messages.
+std::string corners_of(const kernel::Mesh& mesh, const Plane& plane, Index f);
+
 }  // namespace qmorph

@@ -10,8 +10,7 @@ namespace qmorph::kernel {
 namespace {
 
 /// Where the half-edges of each vertex start in an array sorted by origin: a counting sort.
-std::vector<Index> offsets_by_origin(Index vertices,
-                                     const std::vector<std::array<Index, 3>>& triangles) {
+std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::array<Index, 3>>& triangles) {
   std::vector<Index> start(vertices + 1, 0);
   for (const auto& t : triangles)
     for (Index v : t) ++start[v + 1];
@@ -90,8 +89,7 @@ bool Mesh::is_valid_face(Index f) const {
   const Index start = half_edge(f);
   Index h = start;
   do {
-    if (!is_convex_corner(point(origin(prev(h))), point(origin(h)), point(target(h)), least))
-      return false;
+    if (!is_convex_corner(point(origin(prev(h))), point(origin(h)), point(target(h)), least)) return false;
     h = next(h);
   } while (h != start);
   return true;
@@ -200,6 +198,18 @@ Index Mesh::split_face(Index g, Index h) {
   Face& kept = edit_face(f);
   kept = {d, kept.degree + 2 - other_degree};
   return d;
+}
+
+Index Mesh::attach_triangle(Index h, Index v) {
+  assert(face(h) == kNone && !is_live_vertex(v));
+  const Index a = origin(h), b = target(h), before = prev(h), after = next(h);
+  const Index bv = new_edge(b, v), va = new_edge(v, a), f = new_face();
+  link(before, twin(va)), link(twin(va), twin(bv)), link(twin(bv), after);
+  link(h, bv), link(bv, va), link(va, h);
+  for (Index e : {h, bv, va}) set_face(e, f);
+  edit_face(f) = {h, 3};
+  set_out(a, twin(va)), set_out(v, twin(bv));
+  return f;
 }
 
 Index Mesh::join_faces(Index h) {
@@ -320,8 +330,7 @@ Index Mesh::open_quad(Index h, Index k, Vec2 p) {
   }
   const Index wx = new_edge(w, x), wy = new_edge(w, y), quad = new_face();
   const Index left = face(h), right = face(back);
-  const Index before_h = prev(h), after_h = next(h), before_back = prev(back),
-              after_back = next(back);
+  const Index before_h = prev(h), after_h = next(h), before_back = prev(back), after_back = next(back);
   link(before_h, wx), link(wx, after_h);
   link(before_back, twin(wy)), link(twin(wy), after_back);
   set_face(wx, left), set_face(twin(wy), right);

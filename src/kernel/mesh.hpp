@@ -22,8 +22,8 @@ struct HalfEdge {
 };
 struct Vertex {
   Vec2 point = Vec2::Zero();
-  Index out = kNone;    ///< an outgoing half-edge; the boundary one if there is one
-  bool fixed = false;   ///< must neither move nor vanish
+  Index out = kNone;   ///< an outgoing half-edge; the boundary one if there is one
+  bool fixed = false;  ///< must neither move nor vanish
 };
 struct Face {
   Index half_edge = kNone;
@@ -112,6 +112,9 @@ class Mesh {
   /// Replaces everything inside the closed ring of half-edges (interior on their left) by one face.
   /// `faces` are the faces inside. Returns the face.
   Index make_face(const std::vector<Index>& ring, const std::vector<Index>& inside);
+
+  /// New triangle outside of the boundary half-edge h, with a vertex v that has no element yet, at its point. Returns the face.
+  Index attach_triangle(Index h, Index v);
 
   // --- transactions ------------------------------------------------------------------------------------
   /// Everything between begin() and rollback() is undone, to the bit. Not nested.

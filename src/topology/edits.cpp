@@ -40,20 +40,28 @@ std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
   return nodes;
 }
 
+std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
+  std::vector<Index> faces;
+  for (Index v : nodes) {
+    if (!mesh.is_live_vertex(v)) continue;
+    Index h = mesh.out(v);
+    do {
+      if (mesh.face(h) != kNone) faces.push_back(mesh.face(h));
+      h = mesh.rotate_ccw(h);
+    } while (h != mesh.out(v));
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int rings) {
   std::sort(faces.begin(), faces.end());
   for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t count = faces.size();
-    for (std::size_t i = 0; i < count; ++i)
-      for (Index v : nodes_of(mesh, faces[i])) {
-        Index h = mesh.out(v);
-        do {
-          if (mesh.face(h) != kNone) faces.push_back(mesh.face(h));
-          h = mesh.rotate_ccw(h);
-        } while (h != mesh.out(v));
-      }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<Index> nodes;
+    for (Index f : faces)
+      for (Index v : nodes_of(mesh, f)) nodes.push_back(v);
+    faces = faces_around(mesh, nodes);
   }
   return faces;
 }

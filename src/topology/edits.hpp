@@ -26,6 +26,9 @@ Index draw_path(kernel::Mesh& mesh, Index a, Index b, const std::vector<Vec2>& p
 /// `faces` and `rings` rings of faces around them that share a node.
 std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int rings);
 
+/// The faces around some nodes, sorted. Dead nodes have none.
+std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+
 /// Nodes of a face, counter-clockwise.
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f);
 

@@ -97,6 +97,16 @@ TEST_CASE("split_edge puts a node on an edge and both faces gain a side") {
   CHECK(defect(mesh, false) == "");
 }
 
+TEST_CASE("attach_triangle puts a face outside of a boundary edge, with a vertex that had none") {
+  Mesh mesh = drawn({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {3, 1}}, {{0, 1, 2}, {0, 2, 3}});
+  CHECK_FALSE(mesh.is_live_vertex(4));
+  const Index f = mesh.attach_triangle(Mesh::twin(edge(mesh, 1, 2)), 4);
+  CHECK(mesh.degree(f) == 3);
+  CHECK(faces_of(mesh) == Polygons{{0, 1, 2}, {0, 2, 3}, {1, 4, 2}});
+  CHECK(boundary_of(mesh) == Edges{{0, 1}, {1, 4}, {2, 3}, {3, 0}, {4, 2}});
+  CHECK(defect(mesh) == "");
+}
+
 TEST_CASE("split_face cuts a quad; the part that starts with the second half-edge lies on the left") {
   Mesh mesh = drawn(kSquare, {{0, 1, 2, 3}});
   const Index g = edge(mesh, 1, 2), h = edge(mesh, 3, 0), d = mesh.split_face(g, h);
