@@ -52,6 +52,7 @@ constexpr std::array kRows = {
         "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
     Row{"elements", "--elements NAME", 1, "for decks: CPS (default), CPE, CAX, S or M3D, with an R behind for reduced"},
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
+    Row{"report", "--report FILE", 1, "write a page that shows the mesh before and after, and all figures (HTML)"},
     Row{"smoothing", "--smoothing NAME", 1, "shape_energy (default), or thesis: constrained Laplacian"},
     Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
     Row{"check", "--check", 0, "judge the mesh IN and write nothing: status 6 if it is not good enough"},
@@ -247,6 +248,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--keep-curves", request.keep_curves)->delimiter(',')->allow_extra_args(false);
   app.add_flag("--cleanup-only", request.cleanup_only);
   app.add_option("--stats", request.stats);
+  app.add_option("--report", request.report);
   app.add_option("--smoothing", request.smoothing);
   app.add_option("--set", request.settings)->allow_extra_args(false);
   app.add_flag("--help", request.help);

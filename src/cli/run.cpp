@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -20,6 +21,7 @@
 #include "cli/check.hpp"
 #include "cli/progress.hpp"
 #include "cli/request.hpp"
+#include "cli/scene.hpp"
 #include "gmsh/consumers.hpp"
 #include "gmsh/meshing.hpp"
 #include "gmsh/open.hpp"
@@ -28,6 +30,7 @@
 #include "gmsh/staged_file.hpp"
 #include "gmsh/write.hpp"
 #include "qmorph/gmsh.hpp"
+#include "report/page.hpp"
 #include "report/stats.hpp"
 #include "report/summary.hpp"
 #include "report/version.hpp"
@@ -90,16 +93,26 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return !first.empty() && first == second;
 }
 
+/// The files that are asked for besides the mesh, by the option that names them.
+std::vector<std::pair<std::string, std::string>> side_files(const Request& request) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& [option, path] : {std::pair("--stats", &request.stats), std::pair("--report", &request.report)})
+    if (!path->empty()) files.emplace_back(option, *path);
+  return files;
+}
+
 /// Refuses what would fail in the end before hours go into a mesh.
 adapter::OutputPlan check_places(const Request& request) {
   adapter::check_readable(request.input);
   for (const std::string& file : request.merged) adapter::check_readable(file);
-  const auto refuse_stats_at = [&](const std::string& path, std::string_view what) {
-    if (!request.stats.empty() && is_same_file(request.stats, path))
-      throw UsageError(fmt::format("--stats {} is the {}; give the figures a file of their own", request.stats, what));
-  };
-  refuse_stats_at(request.input, "input");
-  if (!request.stats.empty()) const adapter::StagedFile probe(request.stats);
+  std::vector<std::pair<std::string, std::string>> taken{{request.input, "the input"}};
+  for (const auto& [option, path] : side_files(request)) {
+    for (const auto& [other, what] : taken)
+      if (is_same_file(path, other))
+        throw UsageError(fmt::format("{} {} is {}; give it a file of its own", option, path, what));
+    const adapter::StagedFile probe(path);
+    taken.emplace_back(path, fmt::format("the file of {}", option));
+  }
   std::string format = request.format;
   if (!request.consumer.empty()) {
     const std::string_view wanted = adapter::find_consumer(request.consumer).format;
@@ -111,7 +124,9 @@ adapter::OutputPlan check_places(const Request& request) {
     format = wanted;
   }
   const adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, format);
-  refuse_stats_at(plan.path, "output");
+  for (const auto& [option, path] : side_files(request))
+    if (is_same_file(path, plan.path))
+      throw UsageError(fmt::format("{} {} is the output; give it a file of its own", option, path));
   return plan;
 }
 
@@ -195,16 +210,20 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
   print_outcome(model, facts.output, err);
 }
 
-/// The mesh and the figures, or neither. \param mesh null if it is in its place already
-void commit(const Request& request, adapter::StagedFile* mesh, const std::string& figures) {
-  std::optional<adapter::StagedFile> stats;
-  if (!request.stats.empty()) {
-    stats.emplace(request.stats);
-    stats->write_text(figures);
-    stats->prepare();
+/// A file besides the mesh, and what is to stand in it.
+struct SideFile {
+  std::string path, text;
+};
+
+/// The mesh and all the other files, or none. \param mesh null if it is in its place already
+void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others) {
+  std::deque<adapter::StagedFile> staged;
+  for (const SideFile& other : others) {
+    staged.emplace_back(other.path).write_text(other.text);
+    staged.back().prepare();
   }
   if (mesh) mesh->commit();
-  if (stats) stats->commit();
+  for (adapter::StagedFile& file : staged) file.commit();
 }
 
 /// The options of the engine that --smoothing and --set name.
@@ -279,9 +298,10 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
 
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
-  options.measure_stages = !request.stats.empty();
+  options.measure_stages = !request.stats.empty() || !request.report.empty();
   std::optional<EvenReport> even;
   if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
+  const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   const ModelReport model =
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   if (model.surfaces.empty()) {
@@ -305,7 +325,11 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
-  commit(request, written ? &file : nullptr, report::stats_json(model, facts));
+  std::vector<SideFile> others;
+  if (!request.stats.empty()) others.push_back({request.stats, report::stats_json(model, facts)});
+  if (!request.report.empty())
+    others.push_back({request.report, report::report_page(before, read_scene(), model, facts)});
+  commit(written ? &file : nullptr, others);
   print_summary(request, opened, model, facts, err);
   for (const std::string& what : bent) err << "qmorph: " << what << '\n';
   return facts.exit_status;

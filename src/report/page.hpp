@@ -1,0 +1,19 @@
+#pragma once
+/// Pages for people: one file each, which needs no network.
+
+#include <string>
+
+#include "qmorph/gmsh.hpp"
+#include "report/scene.hpp"
+#include "report/stats.hpp"
+
+namespace qmorph::report {
+
+/// The page of --report: the mesh before and after, its figures, the stages, the options.
+/// Cost: linear in the size of the scenes.
+std::string report_page(const Scene& before, const Scene& after, const ModelReport& model, const RunFacts& facts);
+
+/// A word of a command line as a shell wants it.
+std::string shell_word(const std::string& word);
+
+}  // namespace qmorph::report

@@ -1,0 +1,110 @@
+// A mesh as the page holds it: four corners a face, the last -1 in a triangle.
+
+export const kNone = -1;
+const kNoFigure = -32768;
+
+export class Mesh {
+  constructor(facts, array, frame, figureSteps) {
+    this.points = array(facts.points);
+    this.dimension = frame.flat ? 2 : 3;
+    this.nodeCount = this.points.length / this.dimension;
+    this.nodeTags = array(facts.node_tags);
+    this.faceTags = array(facts.face_tags);
+    this.faceCount = this.faceTags.length;
+    this.corners = this.expand(array(facts.corner_counts), array(facts.corners));
+    this.figures = {size: array(facts.figures.size)};
+    for (const key of ["scaled_jacobian", "eta", "thesis_metric"])
+      this.figures[key] = Float32Array.from(array(facts.figures[key]), (v) => v === kNoFigure ? NaN : v / figureSteps);
+    this.lines = array(facts.lines);
+    this.openEdges = array(facts.open_edges);
+    this.dots = array(facts.dots);
+    this.irregular = array(facts.irregular);
+    this.valences = array(facts.valences);
+    this.surfaces = facts.surfaces;
+    this.curves = facts.curves;
+    this.groups = facts.groups;
+    this.shown = new Uint8Array(this.faceCount).fill(1);
+    this.xy = new Float32Array(2 * this.nodeCount);
+    this.depth = frame.flat ? null : new Float32Array(this.nodeCount);
+    this.order = null;
+    this.project([1, 0, 0, 0, 1, 0, 0, 0, 1]);
+  }
+
+  expand(counts, flat) {
+    const corners = new Int32Array(4 * this.faceCount).fill(kNone);
+    for (let f = 0, at = 0; f < this.faceCount; ++f)
+      for (let i = 0; i < counts[f]; ++i) corners[4 * f + i] = flat[at++];
+    return corners;
+  }
+
+  cornerCount(f) { return this.corners[4 * f + 3] === kNone ? 3 : 4; }
+  nodesOf(f) { return Array.from(this.corners.subarray(4 * f, 4 * f + this.cornerCount(f))); }
+  surfaceOf(f) { return this.surfaces.find((s) => f >= s.first && f < s.first + s.count); }
+
+  // Coordinates on the screen's plane, from the rows of a rotation; faces from back to front where the mesh is not flat.
+  project(rotation) {
+    const {points, xy, depth} = this;
+    if (!depth) return xy.set(points);
+    const [a, b, c, d, e, f, g, h, i] = rotation;
+    for (let v = 0; v < this.nodeCount; ++v) {
+      const x = points[3 * v], y = points[3 * v + 1], z = points[3 * v + 2];
+      xy[2 * v] = a * x + b * y + c * z;
+      xy[2 * v + 1] = d * x + e * y + f * z;
+      depth[v] = g * x + h * y + i * z;
+    }
+    this.faceDepth = Float32Array.from({length: this.faceCount}, (_, face) => {
+      const n = this.corners, at = 4 * face;
+      return n[at + 3] === kNone ? (depth[n[at]] + depth[n[at + 1]] + depth[n[at + 2]]) / 3
+                                 : (depth[n[at]] + depth[n[at + 1]] + depth[n[at + 2]] + depth[n[at + 3]]) / 4;
+    });
+    this.order = Uint32Array.from({length: this.faceCount}, (_, face) => face);
+    this.order.sort((p, q) => this.faceDepth[p] - this.faceDepth[q] || p - q);
+  }
+
+  // Smallest box around the faces that are shown: [x0, y0, x1, y1].
+  bounds() {
+    let box = [Infinity, Infinity, -Infinity, -Infinity];
+    for (let f = 0; f < this.faceCount; ++f) if (this.shown[f]) box = joined(box, this.faceBounds(f));
+    return box[0] <= box[2] ? box : [-1, -1, 1, 1];
+  }
+
+  faceBounds(f) {
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    for (const v of this.nodesOf(f)) {
+      const x = this.xy[2 * v], y = this.xy[2 * v + 1];
+      box[0] = Math.min(box[0], x), box[1] = Math.min(box[1], y);
+      box[2] = Math.max(box[2], x), box[3] = Math.max(box[3], y);
+    }
+    return box;
+  }
+
+  // The shown face that has the point (x, y), the foremost of several; or kNone.
+  faceAt(x, y) {
+    let found = kNone;
+    const {corners, xy} = this;
+    for (let f = 0; f < this.faceCount; ++f) {
+      if (!this.shown[f]) continue;
+      let inside = false;
+      const n = this.cornerCount(f);
+      for (let i = 0, j = n - 1; i < n; j = i++) {
+        const a = 2 * corners[4 * f + i], b = 2 * corners[4 * f + j];
+        if ((xy[a + 1] > y) !== (xy[b + 1] > y) &&
+            x < xy[a] + ((y - xy[a + 1]) / (xy[b + 1] - xy[a + 1])) * (xy[b] - xy[a])) inside = !inside;
+      }
+      if (inside && (found === kNone || !this.depth || this.faceDepth[f] > this.faceDepth[found])) found = f;
+    }
+    return found;
+  }
+}
+
+export function joined(a, b) {
+  return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+}
+
+// Where a node is in the model, by the frame that the page's coordinates are in.
+export function inSpace(mesh, frame, node) {
+  const p = Array.from(mesh.points.subarray(mesh.dimension * node, mesh.dimension * (node + 1)));
+  const [r, u] = [frame.right, frame.up];
+  const n = [r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]];
+  return [0, 1, 2].map((i) => frame.centre[i] + p[0] * r[i] + p[1] * u[i] + (p[2] ?? 0) * n[i]);
+}

@@ -1,0 +1,49 @@
+// The tables under the panes.
+
+import {element, short, percent, whole} from "./dom.js";
+
+function table(head, rows) {
+  const cells = (tag, list) => list.map((text, i) => element(tag, i === 0 ? {scope: tag === "th" ? "col" : "row", className: "name"} : {}, String(text)));
+  return element("div", {className: "scroller"}, element("table", {}, element("thead", {}, element("tr", {}, ...cells("th", head))),
+                 element("tbody", {}, ...rows.map((row) => element("tr", {}, ...cells("td", row))))));
+}
+
+export function stageTable(stages) {
+  return table(["stage", "seconds", "quads", "triangles", "inverted", "min SJ", "mean SJ", "irregular"], stages.map((s) => {
+    const sj = s.scaled_jacobian;
+    return [s.stage, s.seconds.toFixed(3), whole(s.quads), whole(s.triangles), s.inverted, sj ? short(sj.min) : "–",
+            sj ? short(sj.mean) : "–", s.quads ? percent(s.irregular_share) : "–"];
+  }));
+}
+
+export function surfaceTable(surfaces) {
+  return table(["surface", "outcome", "before", "after", "min SJ", "mean SJ", "irregular"], surfaces.map((s) => {
+    const sj = s.quality?.scaled_jacobian;
+    const elements = ({triangles, quads}) => [[quads, "quad"], [triangles, "triangle"]].filter(([n]) => n > 0)
+        .map(([n, what]) => `${whole(n)} ${what}${n === 1 ? "" : "s"}`).join(", ") || "none";
+    return [s.name ? `${s.tag} “${s.name}”` : s.tag, s.outcome + (s.reason ? `: ${s.reason}` : ""), elements(s.before), elements(s.after),
+            sj ? short(sj.min) : "–", sj ? short(sj.mean) : "–", s.quality ? percent(s.quality.irregular_share) : "–"];
+  }));
+}
+
+// The options that were given, one a line, and the command as it was.
+export function optionList(args) {
+  const rows = [];
+  for (let i = 0; i < args.length; ++i) {
+    if (!args[i].startsWith("-") || args[i] === "-") rows.push(["file", args[i]]);
+    else if (i + 1 < args.length && !args[i + 1].startsWith("--")) rows.push([args[i], args[i + 1].startsWith("-") && isNaN(args[i + 1]) ? "" : args[++i]]);
+    else rows.push([args[i], ""]);
+  }
+  return element("dl", {className: "options"}, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+}
+
+export function chips(stats) {
+  const total = stats.total, sj = total.scaled_jacobian;
+  const list = [[whole(total.quads), total.quads === 1 ? "quad" : "quads"], [whole(total.triangles), total.triangles === 1 ? "triangle" : "triangles"]];
+  if (total.inverted) list.push([total.inverted, "inverted"]);
+  if (sj) list.push([short(sj.min), "smallest scaled Jacobian"], [short(sj.mean), "mean scaled Jacobian"]);
+  list.push([percent(total.irregular_share), "irregular nodes"]);
+  if (stats.size_ratio?.median) list.push([short(stats.size_ratio.median, 2), "edge length over the input's"]);
+  list.push([`${stats.seconds.total.toFixed(2)} s`, "in all"]);
+  return list.map(([value, what]) => element("li", {}, element("b", {}, value), " ", what));
+}
