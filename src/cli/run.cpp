@@ -123,7 +123,8 @@ adapter::OutputPlan check_places(const Request& request) {
       throw UsageError(fmt::format("--for {} writes the format {}, not {}", request.consumer, wanted, format));
     format = wanted;
   }
-  const adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, format);
+  adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, format);
+  plan.for_reader = !request.consumer.empty();
   for (const auto& [option, path] : side_files(request))
     if (is_same_file(path, plan.path))
       throw UsageError(fmt::format("{} {} is the output; give it a file of its own", option, path));
@@ -313,10 +314,9 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   if (is_as_it_was(request, plan, opened, model)) even.reset();  // OUT has the curves of IN
 
   const Clock::time_point write_start = Clock::now();
-  if (request.verbosity >= 1) {
-    const std::string lost = adapter::describe_unwritten(plan, opened);
-    if (!lost.empty()) err << "warning: " << lost << '\n';
-  }
+  const adapter::MshWish wish{request.msh_version, request.binary};
+  if (request.verbosity >= 1 && !is_as_it_was(request, plan, opened, model))
+    for (const std::string& lost : adapter::describe_unwritten(plan, opened, wish)) err << "warning: " << lost << '\n';
   adapter::StagedFile file = adapter::stage(plan);
   const bool written = write(request, plan, opened, model, file);
   const int status = bent.empty() ? status_of(model) : kConvertedInPart;

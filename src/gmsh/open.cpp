@@ -169,13 +169,10 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   refuse_mixed_groups(opened.msh, opened.origin);
   for (const GroupName& group : contents.odd_names) set_group_name(group);
   opened.warnings = log.warnings;
-  std::vector<int> views;
-  ::gmsh::view::getTags(views);
-  if (!views.empty())
-    opened.warnings.push_back("the data in the file (views) is not part of the mesh and is not written");
   opened.open_seconds = seconds_since(start);
 
   opened.had_mesh = opened.msh.version != 0 || surfaces_have_elements();
+  if (opened.had_mesh) opened.views = read_views();  // else they say what size elements are to have
   if (opened.had_mesh || options.no_meshing || !has_surfaces()) return opened;
   start = std::chrono::steady_clock::now();
   const std::vector<std::string> warnings = mesh_surfaces();

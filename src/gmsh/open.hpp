@@ -6,6 +6,7 @@
 
 #include "gmsh/msh2_groups.hpp"
 #include "gmsh/msh_file.hpp"
+#include "gmsh/views.hpp"
 
 namespace qmorph::adapter {
 
@@ -22,6 +23,7 @@ struct OpenedModel {
   MshHeader msh;          ///< version 0: not a .msh file
   bool had_mesh = false;  ///< the surfaces' elements come from the file, not from Gmsh's mesher
   Msh2Origin origin;      ///< of a file of MSH 2 that had to be taken apart
+  MeshData views;         ///< data on the mesh of the file
   std::vector<std::string> warnings;
   double open_seconds = 0, mesh_seconds = 0;
 };

@@ -135,7 +135,11 @@ bool has_groups() {
 }
 
 /// Our own writer keeps the tags, and the partitions.
-bool keeps_tags_of_msh2(double version, const OpenedModel& opened) { return version == 2.2 && opened.msh.is_2(); }
+bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
+  return version == 2.2 && (opened.msh.is_2() || !opened.views.steps.empty());
+}
+
+bool holds_views(double version) { return version == 2.2 || version >= 4; }
 
 void write_msh(const std::string& path, double version, bool everything) {
   const ScopedOption version_option("Mesh.MshFileVersion", version);
@@ -202,14 +206,24 @@ void renumber() {
   });
 }
 
-std::string describe_unwritten(const OutputPlan& plan, const OpenedModel& opened) {
-  if (opened.msh.version == 0 || plan.format.is_msh || !has_groups() || get_option("Mesh.SaveAll") != 0) return {};
+std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
+  std::vector<std::string> lines = opened.views.warnings;
+  const bool has_place =
+      plan.format.is_msh && !plan.for_reader && holds_views(choose_version(plan.format, opened, wish));
+  if (!opened.views.steps.empty() && !has_place)
+    lines.push_back(
+        fmt::format("data on nodes and elements (views) is not written to {}; MSH 2.2 and 4 keep it, "
+                    "without --for",
+                    plan.path));
+  if (opened.msh.version == 0 || plan.format.is_msh || !has_groups() || get_option("Mesh.SaveAll") != 0) return lines;
   std::string surfaces;
   for (const auto& [dim, tag] : ungrouped_entities())
     if (dim == 2) surfaces += fmt::format("{}{}", surfaces.empty() ? "" : ", ", tag);
-  if (surfaces.empty()) return {};
-  return fmt::format("surfaces in no physical group are not written to {}: {} (-setnumber Mesh.SaveAll 1 writes all)",
-                     plan.path, surfaces);
+  if (!surfaces.empty())
+    lines.push_back(
+        fmt::format("surfaces in no physical group are not written to {}: {} (-setnumber Mesh.SaveAll 1 writes all)",
+                    plan.path, surfaces));
+  return lines;
 }
 
 void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file) {
@@ -226,6 +240,7 @@ void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWis
       ::gmsh::write(file.path());
   });
   if (!log.errors.empty()) throw OutputError(fmt::format("cannot write {}: {}", plan.path, first_errors(log)));
+  if (holds_views(version)) append_views(file.path(), binary, carry_over(opened.views));
   if (plan.format.is_msh) check_msh_end(file.path(), plan.path);
 }
 

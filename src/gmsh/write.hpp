@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gmsh/open.hpp"
 #include "gmsh/staged_file.hpp"
@@ -21,6 +22,7 @@ struct OutputFormat {
 struct OutputPlan {
   std::string path;
   OutputFormat format;
+  bool for_reader = false;  ///< in the terms of --for: numbered anew
 };
 
 /// The path and the format by Gmsh's rules: -format wins over the extension of -o; without -o the name is the
@@ -47,8 +49,8 @@ void check_format(const OutputPlan& plan);
 void renumber();
 
 /// A mesh that is there already is expected to come out whole, and formats other than MSH have only what is in groups
-/// if there are any. \return what to say about it, or an empty string
-std::string describe_unwritten(const OutputPlan& plan, const OpenedModel& opened);
+/// if there are any, and no data on nodes and elements. \return what to say about it, each in a line
+std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
 /// Writes the current model, whole or not at all. What came from a .msh file goes out in the same version and
 /// encoding unless something else is asked for, and all of it, whether in physical groups or not.
