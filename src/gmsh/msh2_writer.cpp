@@ -13,6 +13,7 @@
 
 #include "gmsh/compat.hpp"
 #include "gmsh/model_mesh.hpp"
+#include "gmsh/periodic.hpp"
 #include "gmsh/session.hpp"
 #include "qmorph/error.hpp"
 
@@ -187,33 +188,17 @@ void ElementWriter::write_block(const ElementBlock& block, const Place& place, i
   }
 }
 
-struct PeriodicLink {
-  int dim = 0, tag = 0, master = 0;
-  std::vector<double> transformation;
-  std::vector<std::pair<std::size_t, std::size_t>> nodes;
-};
-
-std::vector<PeriodicLink> find_periodic_links(const ModelMesh& mesh) {
-  std::vector<PeriodicLink> links;
-  for (const EntityMesh& entity : mesh.entities) {
-    PeriodicLink link{entity.dim, entity.tag, entity.tag, {}, {}};
-    std::vector<std::size_t> nodes, masters;
-    ::gmsh::model::mesh::getPeriodicNodes(link.dim, link.tag, link.master, nodes, masters, link.transformation, true);
-    if (link.master == link.tag || nodes.size() != masters.size()) continue;
-    for (std::size_t i = 0; i < nodes.size(); ++i) link.nodes.emplace_back(nodes[i], masters[i]);
-    std::sort(link.nodes.begin(), link.nodes.end());  // Gmsh's order depends on where the nodes are in memory
-    links.push_back(std::move(link));
-  }
-  return links;
-}
-
 /// Text in binary files too, as Gmsh has it.
 void write_periodic(Output& out, const ModelMesh& mesh) {
-  const std::vector<PeriodicLink> links = find_periodic_links(mesh);
+  std::vector<PeriodicLink> links;
+  for (int dim : {0, 1, 2, 3}) {
+    const std::vector<PeriodicLink> more = read_periodic_links(mesh, dim);
+    links.insert(links.end(), more.begin(), more.end());
+  }
   if (links.empty()) return;
   out.text("$Periodic\n{}\n", links.size());
   for (const PeriodicLink& link : links) {
-    out.text("{} {} {}\n", link.dim, link.tag, link.master);
+    out.text("{} {} {}\n", link.dim, link.slave, link.master);
     if (!link.transformation.empty()) out.text("Affine {}\n", fmt::join(link.transformation, " "));
     out.text("{}\n", link.nodes.size());
     for (const auto& [node, master] : link.nodes) out.text("{} {}\n", node, master);

@@ -114,7 +114,6 @@ MshContents TextCheck::run() {
     }
   }
   if (!section_.empty()) throw InputError(fmt::format("{} ends too soon: there is no $End{}", path_, section_));
-  if (!elements_) throw InputError(fmt::format("{} has no $Elements: it is not complete", path_));
   return {elements_, {}};
 }
 
@@ -200,13 +199,15 @@ MshHeader read_msh_header(const std::string& path) {
   return {};
 }
 
-MshContents check_msh_file(const std::string& path, const MshHeader& header) {
+MshContents check_msh_file(const std::string& path, const MshHeader& header, bool whole) {
   check_complete(path);
   MshContents contents;
   if (header.binary)
     check_binary(path);
   else if (header.is_2() || header.is_4())
     contents = TextCheck(path, header).run();
+  if (whole && !header.binary && (header.is_2() || header.is_4()) && !contents.elements)
+    throw InputError(fmt::format("{} has no $Elements: it is not complete", path));
   contents.odd_names = find_odd_names(path);
   return contents;
 }

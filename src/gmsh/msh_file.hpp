@@ -34,7 +34,8 @@ struct MshContents {
 };
 
 /// Reads through a file of MSH.
+/// \param whole false where a file without elements makes sense: one with data for the mesh of another
 /// \throws InputError if it is not complete, or contradicts itself
-MshContents check_msh_file(const std::string& path, const MshHeader& header);
+MshContents check_msh_file(const std::string& path, const MshHeader& header, bool whole = true);
 
 }  // namespace qmorph::adapter

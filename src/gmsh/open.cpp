@@ -11,6 +11,7 @@
 #include <regex>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/merge.hpp"
 #include "gmsh/meshing.hpp"
 #include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
@@ -128,13 +129,6 @@ StageLog open_file(const std::string& path) {
   return log;
 }
 
-void merge_file(const std::string& path) {
-  check_readable(path);
-  if (const MshHeader header = read_msh_header(path); header.version != 0) check_msh_file(path, header);
-  const StageLog log = run_logged([&] { ::gmsh::merge(path); });
-  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
-}
-
 }  // namespace
 
 /// Gmsh before 4.12 says nothing about a missing file, and asks no further about the others (notes, trap 3).
@@ -162,7 +156,11 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
     opened.origin = separate_groups(path, rewritten.path());
   const StageLog log = open_file(opened.origin.empty() ? path : rewritten.path());
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
-  for (const std::string& file : options.merged) merge_file(file);
+  std::vector<ViewStep> merged_data;
+  for (const std::string& file : options.merged) {
+    const std::vector<ViewStep> data = merge_file(file);
+    merged_data.insert(merged_data.end(), data.begin(), data.end());
+  }
   take_control();
   check_element_count(path, contents, opened.origin);
   add_groups(opened.origin);
@@ -172,7 +170,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   opened.open_seconds = seconds_since(start);
 
   opened.had_mesh = opened.msh.version != 0 || surfaces_have_elements();
-  if (opened.had_mesh) opened.views = read_views();  // else they say what size elements are to have
+  if (opened.had_mesh) opened.views = read_views(merged_data);  // else they say what size elements are to have
   if (opened.had_mesh || options.no_meshing || !has_surfaces()) return opened;
   start = std::chrono::steady_clock::now();
   const std::vector<std::string> warnings = mesh_surfaces();

@@ -67,14 +67,15 @@ Eigen::Vector3d transformed(const std::vector<double>& t, const Eigen::Vector3d&
 
 }  // namespace
 
-std::vector<PeriodicLink> read_periodic_links(const ModelMesh& mesh) {
+std::vector<PeriodicLink> read_periodic_links(const ModelMesh& mesh, int dim) {
   std::vector<PeriodicLink> links;
   for (const EntityMesh& entity : mesh.entities) {
-    if (entity.dim != 2) continue;
+    if (entity.dim != dim) continue;
     PeriodicLink link;
+    link.dim = dim;
     link.slave = link.master = entity.tag;
     std::vector<std::size_t> nodes, masters;
-    ::gmsh::model::mesh::getPeriodicNodes(2, link.slave, link.master, nodes, masters, link.transformation, true);
+    ::gmsh::model::mesh::getPeriodicNodes(dim, link.slave, link.master, nodes, masters, link.transformation, true);
     if (link.master == link.slave || nodes.empty()) continue;
     for (std::size_t i = 0; i < nodes.size(); ++i) link.nodes.emplace_back(nodes[i], masters[i]);
     std::sort(link.nodes.begin(), link.nodes.end());  // Gmsh's order depends on where the nodes are in memory
@@ -168,7 +169,7 @@ void restore_links(const std::vector<PeriodicLink>& links) {
     std::ofstream out(file.path(), std::ios::binary);
     out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Periodic\n" << links.size() << '\n';
     for (const PeriodicLink& link : links) {
-      out << fmt::format("2 {} {}\n{} {}\n{}\n", link.slave, link.master, link.transformation.size(),
+      out << fmt::format("{} {} {}\n{} {}\n{}\n", link.dim, link.slave, link.master, link.transformation.size(),
                          fmt::join(link.transformation, " "), link.nodes.size());
       for (const auto& [slave, master] : link.nodes) out << slave << ' ' << master << '\n';
     }

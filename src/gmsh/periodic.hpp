@@ -12,15 +12,16 @@
 
 namespace qmorph::adapter {
 
-/// One surface (the slave) that is the image of another.
+/// One surface (the slave), or curve or point, that is the image of another.
 struct PeriodicLink {
+  int dim = 2;
   int slave = 0, master = 0;                               ///< tags
   std::vector<double> transformation;                      ///< 4 x 4 by rows, from the master to the slave
   std::vector<std::pair<std::size_t, std::size_t>> nodes;  ///< tags: slave's, master's
 };
 
-/// Links between surfaces of the current model, by the slave's tag.
-std::vector<PeriodicLink> read_periodic_links(const ModelMesh& mesh);
+/// Links between entities of one dimension of the current model, by the slave's tag.
+std::vector<PeriodicLink> read_periodic_links(const ModelMesh& mesh, int dim = 2);
 
 /// Surfaces that are periodic with one another, directly or not.
 struct PeriodicFamily {

@@ -287,11 +287,12 @@ const std::vector<double>* ViewStep::find(std::size_t tag) const {
   return &values[static_cast<std::size_t>(found - tags.begin())];
 }
 
-MeshData read_views() {
+MeshData read_steps(const std::vector<int>& but_views) {
   MeshData data;
   std::vector<int> views;
   ::gmsh::view::getTags(views);
   for (int view : views) {
+    if (std::count(but_views.begin(), but_views.end(), view)) continue;
     const std::string option = fmt::format("View[{}].", ::gmsh::view::getIndex(view));
     std::string name;
     ::gmsh::option::getString(option + "Name", name);
@@ -301,6 +302,24 @@ MeshData read_views() {
       if (auto step = read_step(view, name, number)) data.steps.push_back(std::move(*step));
     if (data.steps.size() == before)
       data.warnings.push_back(fmt::format("the view \"{}\" is not on nodes or elements, and is not written", name));
+  }
+  return data;
+}
+
+MeshData read_views(const std::vector<ViewStep>& more) {
+  MeshData data = read_steps();
+  for (const ViewStep& step : more) {
+    const auto same = std::find_if(data.steps.begin(), data.steps.end(), [&](const ViewStep& other) {
+      return other.name == step.name && other.kind == step.kind && other.step == step.step &&
+             other.components == step.components;
+    });
+    if (same == data.steps.end()) {
+      data.steps.push_back(step);
+      continue;
+    }
+    same->tags.insert(same->tags.end(), step.tags.begin(), step.tags.end());
+    same->values.insert(same->values.end(), step.values.begin(), step.values.end());
+    sort_by_tag(*same);
   }
   if (!data.steps.empty()) data.mesh = read_model_mesh();
   return data;

@@ -29,8 +29,11 @@ struct MeshData {
   std::vector<std::string> warnings;
 };
 
-/// Copies the data of the current model and its mesh.
-MeshData read_views();
+/// The data that Gmsh has, but for some views; no mesh.
+MeshData read_steps(const std::vector<int>& but_views = {});
+
+/// Copies the data that Gmsh has, and the current model's mesh. `more` is data on the same mesh that Gmsh does not have.
+MeshData read_views(const std::vector<ViewStep>& more = {});
 
 /// The data on the current model's mesh, which was made of `data.mesh`. What is as it was keeps its values. On surfaces, a
 /// node elsewhere gets those of the old element that it lies in, interpolated with that element's own functions; a new

@@ -1,0 +1,283 @@
+#include "gmsh/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/model_mesh.hpp"
+#include "gmsh/msh_file.hpp"
+#include "gmsh/open.hpp"
+#include "gmsh/periodic.hpp"
+#include "gmsh/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// The mesh of a file that is to be merged, and what hangs on its entities.
+struct Guest {
+  ModelMesh mesh;
+  std::vector<std::vector<int>> boundary;                  ///< of each entity, with signs
+  std::map<std::pair<int, int>, std::vector<int>> groups;  ///< entities of each
+  std::map<std::pair<int, int>, std::string> group_names;
+  std::vector<PeriodicLink> links;
+  std::vector<ViewStep> data;
+  bool partitioned = false;
+};
+
+/// What is added to its numbers.
+struct Shift {
+  std::size_t node = 0, element = 0;
+  std::array<int, 4> entity{};
+};
+
+Guest read_guest() {
+  Guest guest;
+  guest.mesh = read_model_mesh();
+  for (const EntityMesh& entity : guest.mesh.entities) {
+    ::gmsh::vectorpair sides;
+    if (entity.dim > 0) ::gmsh::model::getBoundary({{entity.dim, entity.tag}}, sides, false, true);
+    guest.boundary.emplace_back();
+    for (const auto& side : sides) guest.boundary.back().push_back(side.second);
+  }
+  ::gmsh::vectorpair groups;
+  ::gmsh::model::getPhysicalGroups(groups);
+  for (const auto& [dim, tag] : groups) {
+    ::gmsh::model::getEntitiesForPhysicalGroup(dim, tag, guest.groups[{dim, tag}]);
+    ::gmsh::model::getPhysicalName(dim, tag, guest.group_names[{dim, tag}]);
+  }
+  for (const EntityMesh& entity : guest.mesh.entities) {
+    std::vector<int> partitions;
+    ::gmsh::model::getPartitions(entity.dim, entity.tag, partitions);
+    guest.partitioned = guest.partitioned || !partitions.empty();
+  }
+  for (int dim : {0, 1, 2}) {
+    const std::vector<PeriodicLink> links = read_periodic_links(guest.mesh, dim);
+    guest.links.insert(guest.links.end(), links.begin(), links.end());
+  }
+  return guest;
+}
+
+/// Reads a file into a model of its own, which is gone afterwards, with what hangs on it.
+Guest read_alone(const std::string& path) {
+  std::string host;
+  ::gmsh::model::getCurrent(host);
+  std::vector<int> views;
+  ::gmsh::view::getTags(views);
+  Guest guest;
+  const StageLog log = run_logged([&] {
+    ::gmsh::model::add(host + " guest");
+    ::gmsh::merge(path);
+    guest = read_guest();
+    guest.data = read_steps(views).steps;
+  });
+  std::vector<int> views_now;
+  ::gmsh::view::getTags(views_now);
+  for (int view : views_now)
+    if (!std::count(views.begin(), views.end(), view)) ::gmsh::view::remove(view);
+  ::gmsh::model::remove();
+  ::gmsh::model::setCurrent(host);
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
+  return guest;
+}
+
+enum class Common { nothing, same, different };
+
+Common common_nodes(const ModelMesh& host, const ModelMesh& guest) {
+  Common common = Common::nothing;
+  for (Index row = 0; row < guest.tags.size(); ++row) {
+    const Index other = host.rows.find(guest.tags[row]);
+    if (other == kNone) continue;
+    if (host.points[other] != guest.points[row]) return Common::different;
+    common = Common::same;
+  }
+  return common;
+}
+
+/// Elements by number: their nodes.
+using Elements = std::unordered_map<std::size_t, std::vector<std::size_t>>;
+
+Elements list_elements(const ModelMesh& mesh) {
+  Elements elements;
+  for (const EntityMesh& entity : mesh.entities)
+    for (const ElementBlock& block : entity.blocks)
+      for (std::size_t e = 0; e < block.tags.size(); ++e) {
+        const auto first = block.nodes.begin() + std::ptrdiff_t(e * block.nodes_per_element);
+        elements[block.tags[e]].assign(first, first + std::ptrdiff_t(block.nodes_per_element));
+      }
+  return elements;
+}
+
+Common common_elements(const Elements& host, const ModelMesh& guest) {
+  Common common = Common::nothing;
+  for (const auto& [tag, nodes] : list_elements(guest)) {
+    const auto found = host.find(tag);
+    if (found == host.end()) continue;
+    if (found->second != nodes) return Common::different;
+    common = Common::same;
+  }
+  return common;
+}
+
+/// An entity that has elements in both, and is in other groups in each.
+bool have_common_entities(const ModelMesh& host, const Guest& guest) {
+  std::set<std::pair<int, int>> with_elements;
+  for (const EntityMesh& entity : host.entities)
+    if (entity.element_count()) with_elements.insert({entity.dim, entity.tag});
+  return std::any_of(guest.mesh.entities.begin(), guest.mesh.entities.end(), [&](const EntityMesh& entity) {
+    if (!entity.element_count() || !with_elements.count({entity.dim, entity.tag})) return false;
+    std::vector<int> groups, theirs;
+    ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
+    for (const auto& [group, entities] : guest.groups)
+      if (group.first == entity.dim && std::count(entities.begin(), entities.end(), entity.tag))
+        theirs.push_back(group.second);
+    std::sort(groups.begin(), groups.end());
+    return groups != theirs;
+  });
+}
+
+/// \return nothing where Gmsh's own merging does
+std::optional<Shift> find_shift(const ModelMesh& host, const Elements& host_elements, const Guest& guest) {
+  const Common nodes = common_nodes(host, guest.mesh), elements = common_elements(host_elements, guest.mesh);
+  const bool entities = elements != Common::same && have_common_entities(host, guest);
+  if (nodes == Common::nothing && elements == Common::nothing && !entities) return std::nullopt;
+  Shift shift;
+  if (nodes == Common::different) shift.node = host.max_node_tag;
+  if (shift.node || elements == Common::different) shift.element = host.max_element_tag;
+  if (!shift.node && !entities) return shift;
+  for (const EntityMesh& entity : host.entities) {
+    int& most = shift.entity[std::size_t(entity.dim)];
+    most = std::max(most, entity.tag);
+  }
+  return shift;
+}
+
+void add_entities(const ModelMesh& host, const Guest& guest, const Shift& shift) {
+  std::set<std::pair<int, int>> known;
+  for (const EntityMesh& entity : host.entities) known.insert({entity.dim, entity.tag});
+  for (std::size_t e = 0; e < guest.mesh.entities.size(); ++e) {
+    const EntityMesh& entity = guest.mesh.entities[e];
+    const int tag = entity.tag + shift.entity[std::size_t(entity.dim)];
+    if (!known.insert({entity.dim, tag}).second) continue;
+    std::vector<int> boundary = guest.boundary[e];
+    for (int& side : boundary) side += (side < 0 ? -1 : 1) * shift.entity[std::size_t(entity.dim - 1)];
+    ::gmsh::model::addDiscreteEntity(entity.dim, tag, boundary);
+    if (entity.dim == 0 && !entity.xyz.empty())
+      ::gmsh::model::setCoordinates(tag, entity.xyz[0], entity.xyz[1], entity.xyz[2]);
+  }
+}
+
+void add_nodes(const ModelMesh& host, const EntityMesh& entity, const Shift& shift) {
+  EntityMesh added;
+  for (std::size_t i = 0; i < entity.node_tags.size(); ++i) {
+    const std::size_t tag = entity.node_tags[i] + shift.node;
+    if (host.rows.find(tag) != kNone) continue;
+    added.node_tags.push_back(tag);
+    added.xyz.insert(added.xyz.end(), &entity.xyz[3 * i], &entity.xyz[3 * i] + 3);
+  }
+  if (!added.node_tags.empty())
+    ::gmsh::model::mesh::addNodes(entity.dim, entity.tag + shift.entity[std::size_t(entity.dim)], added.node_tags,
+                                  added.xyz);
+}
+
+void add_elements(const Elements& host, const EntityMesh& entity, const Shift& shift) {
+  for (const ElementBlock& block : entity.blocks) {
+    std::vector<std::size_t> tags, nodes;
+    for (std::size_t e = 0; e < block.tags.size(); ++e) {
+      const std::size_t tag = block.tags[e] + shift.element;
+      if (host.count(tag)) continue;
+      tags.push_back(tag);
+      for (std::size_t k = 0; k < block.nodes_per_element; ++k)
+        nodes.push_back(block.nodes[e * block.nodes_per_element + k] + shift.node);
+    }
+    const int owner = entity.tag + shift.entity[std::size_t(entity.dim)];
+    if (!tags.empty()) ::gmsh::model::mesh::addElementsByType(owner, block.type, tags, nodes);
+  }
+}
+
+/// Groups cannot be added to: they are made anew. The first file's name of a group wins.
+void add_groups(const Guest& guest, const Shift& shift) {
+  ::gmsh::vectorpair known;
+  ::gmsh::model::getPhysicalGroups(known);
+  for (const auto& [group, entities] : guest.groups) {
+    const auto [dim, tag] = group;
+    std::vector<int> all;
+    std::string name;
+    if (std::count(known.begin(), known.end(), group)) {
+      ::gmsh::model::getEntitiesForPhysicalGroup(dim, tag, all);
+      ::gmsh::model::getPhysicalName(dim, tag, name);
+      // It complains that the built-in kernel does not have the group, and removes it.
+      run_logged([&, entry = group] { ::gmsh::model::removePhysicalGroups({entry}); });
+    }
+    for (int entity : entities) all.push_back(entity + shift.entity[std::size_t(dim)]);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    ::gmsh::model::addPhysicalGroup(dim, all, tag);
+    if (name.empty()) name = guest.group_names.at(group);
+    if (!name.empty()) ::gmsh::model::setPhysicalName(dim, tag, name);
+  }
+}
+
+void add_guest(const ModelMesh& host, const Elements& host_elements, const Guest& guest, const Shift& shift) {
+  add_entities(host, guest, shift);
+  for (const EntityMesh& entity : guest.mesh.entities) add_nodes(host, entity, shift);
+  for (const EntityMesh& entity : guest.mesh.entities) add_elements(host_elements, entity, shift);
+  std::vector<PeriodicLink> links = guest.links;
+  for (PeriodicLink& link : links) {
+    link.slave += shift.entity[std::size_t(link.dim)];
+    link.master += shift.entity[std::size_t(link.dim)];
+    for (auto& [slave, master] : link.nodes) slave += shift.node, master += shift.node;
+  }
+  restore_links(links);
+}
+
+std::vector<ViewStep> shifted(std::vector<ViewStep> data, const Shift& shift) {
+  for (ViewStep& step : data)
+    for (std::size_t& tag : step.tags) tag += step.kind == "NodeData" ? shift.node : shift.element;
+  return data;
+}
+
+/// A file may have data alone.
+bool has_nodes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("$Nodes", 0) == 0 || line.rfind("$NOD", 0) == 0) return true;
+  return false;
+}
+
+void merge_plainly(const std::string& path) {
+  const StageLog log = run_logged([&] { ::gmsh::merge(path); });
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
+}
+
+}  // namespace
+
+std::vector<ViewStep> merge_file(const std::string& path) {
+  check_readable(path);
+  const MshHeader header = read_msh_header(path);
+  if (header.version != 0) check_msh_file(path, header, false);
+  ModelMesh host;
+  if (header.version != 0) host = read_model_mesh();
+  if (host.tags.empty() || !has_nodes(path)) return merge_plainly(path), std::vector<ViewStep>();
+
+  const Guest guest = read_alone(path);
+  const Elements host_elements = list_elements(host);
+  const auto shift = find_shift(host, host_elements, guest);
+  if (!shift) return merge_plainly(path), std::vector<ViewStep>();
+  if (guest.partitioned)
+    throw InputError(fmt::format("{} is partitioned, and its numbers are in use; merge first, then -part", path));
+  const StageLog log = run_logged([&] { add_guest(host, host_elements, guest, *shift); });
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
+  add_groups(guest, *shift);
+  return shifted(guest.data, *shift);
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,147 @@
+/// Several files make one model.
+
+#include "gmsh/merge.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "gmsh/compat.hpp"
+#include "gmsh/periodic.hpp"
+#include "gmsh/session.hpp"
+#include "gmsh/support.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+
+namespace {
+
+/// A unit square with its lower left corner at (x, 0): surface 1 in one group, and its outline in "wall" (6).
+std::function<void()> square_at(double x, const std::string& name, int group, int first_number = 1) {
+  return [=] {
+    ::gmsh::model::occ::addRectangle(x, 0, 0, 1, 1, 1);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.3);
+    ::gmsh::model::addPhysicalGroup(2, {1}, group);
+    ::gmsh::model::setPhysicalName(2, group, name);
+    ::gmsh::model::addPhysicalGroup(1, {1, 2, 3, 4}, 6);
+    ::gmsh::model::setPhysicalName(1, 6, "wall");
+    ::gmsh::option::setNumber("Mesh.FirstNodeTag", first_number);
+    ::gmsh::option::setNumber("Mesh.FirstElementTag", first_number);
+    ::gmsh::model::mesh::generate(2);
+  };
+}
+
+double area_of_group(const Snapshot& snapshot, int group) {
+  double area = 0;
+  for (int surface : snapshot.groups.at({2, group}).second)
+    for (const auto& entity : snapshot.mesh.entities)
+      for (const auto& block : entity.blocks)
+        for (std::size_t i = 0; entity.dim == 2 && entity.tag == surface && i < block.nodes.size();
+             i += block.nodes_per_element)
+          for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
+            const auto& p = snapshot.mesh.points[snapshot.mesh.rows.find(block.nodes[i + k])];
+            const auto& q =
+                snapshot.mesh.points[snapshot.mesh.rows.find(block.nodes[i + (k + 1) % block.nodes_per_element])];
+            area += (p.x() * q.y() - q.x() * p.y()) / 2;
+          }
+  return area;
+}
+
+}  // namespace
+
+TEST_CASE("merge: files with the same numbers lie side by side, each with its groups") {
+  for (double version : {2.2, 4.1})
+    for (bool binary : {false, true}) {
+      CAPTURE(version);
+      CAPTURE(binary);
+      const TemporaryDirectory directory;
+      make_msh(directory / "a.msh", version, binary, square_at(0, "left", 5));
+      make_msh(directory / "b.msh", version, binary, square_at(1, "right", 7));
+      const Result result = run_qmorph({directory / "a.msh", directory / "b.msh", "-o", directory / "out.msh"});
+      CHECK(result.status == 0);
+      const Snapshot out = read_snapshot(directory / "out.msh");
+      REQUIRE(out.groups.count({2, 5}) == 1);
+      REQUIRE(out.groups.count({2, 7}) == 1);
+      CHECK(out.groups.at({2, 5}).first == "left");
+      CHECK(out.groups.at({2, 7}).first == "right");
+      CHECK(area_of_group(out, 5) == doctest::Approx(1));
+      CHECK(area_of_group(out, 7) == doctest::Approx(1));
+      CHECK(out.groups.at({1, 6}).first == "wall");
+      CHECK(out.groups.at({1, 6}).second.size() == 8);
+    }
+}
+
+TEST_CASE(
+    "merge: surfaces with one number in different groups stay apart though their nodes have numbers of their own") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "a.msh", 4.1, false, square_at(0, "left", 5));
+  make_msh(directory / "b.msh", 4.1, false, square_at(1, "right", 7, 1000));
+  CHECK(run_qmorph({directory / "a.msh", directory / "b.msh", "-o", directory / "out.msh"}).status == 0);
+  const Snapshot out = read_snapshot(directory / "out.msh");
+  CHECK(area_of_group(out, 5) == doctest::Approx(1));
+  CHECK(area_of_group(out, 7) == doctest::Approx(1));
+}
+
+TEST_CASE("merge: a file twice is once, and one that adds a surface to the nodes of another joins it") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "a.msh", 4.1, false, square_at(0, "left", 5));
+  CHECK(run_qmorph({directory / "a.msh", directory / "a.msh", "-o", directory / "twice.msh"}).status == 0);
+  const Snapshot a = read_snapshot(directory / "a.msh"), twice = read_snapshot(directory / "twice.msh");
+  CHECK(difference(a, twice, {1}) == "");
+
+  const Grid grid;
+  std::vector<std::string> lower, upper;
+  for (const auto& triangle : grid.triangles()) (lower.size() < 16 ? lower : upper).push_back(row("2 2 1 1", triangle));
+  for (std::string& text : upper) text.replace(0, 7, "2 2 2 2");
+  write_file(directory / "lower.msh", msh22(grid.nodes(), lower));
+  std::vector<std::string> both = lower;
+  both.insert(both.end(), upper.begin(), upper.end());
+  write_file(directory / "both.msh", msh22(grid.nodes(), both));
+  CHECK(run_qmorph({directory / "lower.msh", directory / "both.msh", "-o", directory / "joined.msh"}).status == 0);
+  const Snapshot joined = read_snapshot(directory / "joined.msh");
+  CHECK(joined.mesh.tags.size() == 25);
+  CHECK(element_counts(joined, 1) == std::pair<std::size_t, std::size_t>(0, 8));
+  CHECK(element_counts(joined, 2) == std::pair<std::size_t, std::size_t>(0, 8));
+}
+
+TEST_CASE("merge: periodic links of the second file are kept") {
+  const auto build = [](double x) {
+    return [x] {
+      ::gmsh::model::occ::addRectangle(x, 0, 0, 1, 1, 1);
+      ::gmsh::model::occ::synchronize();
+      ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.3);
+      ::gmsh::model::mesh::setPeriodic(1, {2}, {4}, {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+      ::gmsh::model::mesh::generate(2);
+    };
+  };
+  const TemporaryDirectory directory;
+  make_msh(directory / "a.msh", 4.1, false, build(0));
+  make_msh(directory / "b.msh", 4.1, false, build(3));
+  CHECK(run_qmorph({directory / "a.msh", directory / "b.msh", "-o", directory / "out.msh"}).status == 0);
+  const adapter::Session session;
+  adapter::set_option("Mesh.IgnorePeriodicity", 0);
+  adapter::run_logged([&] { ::gmsh::open(directory / "out.msh"); });
+  const adapter::ModelMesh mesh = adapter::read_model_mesh();
+  const auto links = adapter::read_periodic_links(mesh, 1);
+  REQUIRE(links.size() == 2);
+  CHECK(links[0].nodes.size() == links[1].nodes.size());
+  for (const auto& [slave, master] : links[1].nodes) {
+    const auto &p = mesh.points[mesh.rows.find(slave)], &q = mesh.points[mesh.rows.find(master)];
+    CHECK(p.x() == doctest::Approx(q.x() + 1));
+    CHECK(q.x() == doctest::Approx(3));
+  }
+}
+
+TEST_CASE("merge: a file of data alone goes onto the mesh of the first") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "a.msh", 4.1, false, square_at(0, "left", 5));
+  std::string data = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$NodeData\n1\n\"height\"\n1\n0\n3\n0\n1\n";
+  const Snapshot a = read_snapshot(directory / "a.msh");
+  data += std::to_string(a.mesh.tags.size()) + '\n';
+  for (std::size_t i = 0; i < a.mesh.tags.size(); ++i)
+    data += std::to_string(a.mesh.tags[i]) + ' ' + std::to_string(a.mesh.points[i].y()) + '\n';
+  write_file(directory / "data.msh", data + "$EndNodeData\n");
+  CHECK(run_qmorph({directory / "a.msh", directory / "data.msh", "-o", directory / "out.msh"}).status == 0);
+  CHECK(read_file(directory / "out.msh").find("$NodeData\n1\n\"height\"") != std::string::npos);
+}
