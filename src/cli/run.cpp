@@ -251,7 +251,7 @@ std::vector<std::string> finish_model(const Request& request, adapter::OpenedMod
   const auto note = [&](const std::vector<std::string>& warnings) {
     opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
   };
-  if (request.dimension == 3) note(adapter::mesh_volumes());
+  if (request.dimension == 3) note(adapter::mesh_volumes(opened.had_mesh));
   const adapter::RaisedModel raised = adapter::raise_model();
   note(raised.warnings);
   if (!opened.had_mesh) adapter::renumber();

@@ -1,8 +1,10 @@
 #include "gmsh/groups.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/session.hpp"
 
 namespace qmorph::adapter {
 
@@ -18,6 +20,26 @@ std::vector<PhysicalGroup> read_physical_groups() {
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+/// Groups cannot be added to: they are made anew.
+void add_to_group(int dim, int group, const std::vector<int>& entities, const std::string& name) {
+  std::vector<int> all;
+  std::string kept;
+  ::gmsh::vectorpair known;
+  ::gmsh::model::getPhysicalGroups(known, dim);
+  if (std::count(known.begin(), known.end(), std::pair(dim, group))) {
+    ::gmsh::model::getEntitiesForPhysicalGroup(dim, group, all);
+    // It complains that the built-in kernel does not have the group, and removes it.
+    run_logged([&] { ::gmsh::model::removePhysicalGroups({{dim, group}}); });
+  }
+  ::gmsh::model::getPhysicalName(dim, group, kept);
+  all.insert(all.end(), entities.begin(), entities.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  ::gmsh::model::addPhysicalGroup(dim, all, group);
+  if (kept.empty()) kept = name;
+  if (!kept.empty()) ::gmsh::model::setPhysicalName(dim, group, kept);
 }
 
 }  // namespace qmorph::adapter

@@ -15,4 +15,7 @@ struct PhysicalGroup {
 /// By dimension, then tag.
 std::vector<PhysicalGroup> read_physical_groups();
 
+/// Adds entities to a physical group, which is made if it is not there. It keeps its name if it has one.
+void add_to_group(int dim, int group, const std::vector<int>& entities, const std::string& name = {});
+
 }  // namespace qmorph::adapter

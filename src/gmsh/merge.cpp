@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/groups.hpp"
 #include "gmsh/model_mesh.hpp"
 #include "gmsh/msh_file.hpp"
 #include "gmsh/open.hpp"
@@ -203,26 +204,12 @@ void add_elements(const Elements& host, const EntityMesh& entity, const Shift& s
   }
 }
 
-/// Groups cannot be added to: they are made anew. The first file's name of a group wins.
+/// The first file's name of a group wins.
 void add_groups(const Guest& guest, const Shift& shift) {
-  ::gmsh::vectorpair known;
-  ::gmsh::model::getPhysicalGroups(known);
   for (const auto& [group, entities] : guest.groups) {
-    const auto [dim, tag] = group;
-    std::vector<int> all;
-    std::string name;
-    if (std::count(known.begin(), known.end(), group)) {
-      ::gmsh::model::getEntitiesForPhysicalGroup(dim, tag, all);
-      ::gmsh::model::getPhysicalName(dim, tag, name);
-      // It complains that the built-in kernel does not have the group, and removes it.
-      run_logged([&, entry = group] { ::gmsh::model::removePhysicalGroups({entry}); });
-    }
-    for (int entity : entities) all.push_back(entity + shift.entity[std::size_t(dim)]);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    ::gmsh::model::addPhysicalGroup(dim, all, tag);
-    if (name.empty()) name = guest.group_names.at(group);
-    if (!name.empty()) ::gmsh::model::setPhysicalName(dim, tag, name);
+    std::vector<int> tags = entities;
+    for (int& tag : tags) tag += shift.entity[std::size_t(group.first)];
+    add_to_group(group.first, group.second, tags, guest.group_names.at(group));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/groups.hpp"
 #include "gmsh/high_order.hpp"
 #include "gmsh/model_mesh.hpp"
 #include "gmsh/scratch_file.hpp"
@@ -85,6 +86,32 @@ void check_every_surface_has_elements() {
   }
 }
 
+bool has_elements(int dim, int tag) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
+  return !types.empty();
+}
+
+/// A volume of a file without geometry is not meshed by Gmsh; one of its built-in kernel inside the same surfaces is.
+void make_meshable(int volume) {
+  ::gmsh::vectorpair sides;
+  ::gmsh::model::getBoundary({{3, volume}}, sides, false, false);
+  if (sides.empty())
+    throw InputError(fmt::format("the file does not say what surfaces volume {} has; with MSH 4.1 it would", volume));
+  std::vector<int> surfaces, groups;
+  for (const auto& side : sides) surfaces.push_back(side.second);
+  ::gmsh::model::getPhysicalGroupsForEntity(3, volume, groups);
+  const StageLog log = run_logged([&] {
+    ::gmsh::model::removeEntities({{3, volume}});
+    ::gmsh::model::geo::remove({{3, volume}});
+    ::gmsh::model::geo::addVolume({::gmsh::model::geo::addSurfaceLoop(surfaces)}, volume);
+    ::gmsh::model::geo::synchronize();
+  });
+  if (!log.errors.empty()) throw InputError(fmt::format("Gmsh cannot mesh volume {}: {}", volume, first_errors(log)));
+  for (int group : groups) add_to_group(3, group, {volume});
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_surfaces() {
@@ -121,24 +148,22 @@ bool drop_volumes() {
   return true;
 }
 
-std::vector<std::string> mesh_volumes() {
+std::vector<std::string> mesh_volumes(bool keep_numbers) {
   ::gmsh::vectorpair volumes;
   ::gmsh::model::getEntities(volumes, 3);
   if (volumes.empty()) return {"there is no volume to mesh"};
-  const StageLog log = run_logged([] {
+  for (const auto& [dim, tag] : volumes)
+    if (entity_type(dim, tag).rfind("Discrete", 0) == 0 && !has_elements(dim, tag)) make_meshable(tag);
+  const StageLog log = run_logged([&] {
     const RecombinationOff off;
     const ScopedOption linear("Mesh.ElementOrder", 1);
+    const ScopedOption renumber("Mesh.Renumber", keep_numbers ? 0 : 1);
     ::gmsh::model::mesh::generate(3);
   });
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh the volumes on these quads: " + first_errors(log));
-  std::vector<std::string> warnings = log.warnings;
-  for (const auto& [dim, tag] : volumes) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
-    if (types.empty()) throw InputError(fmt::format("Gmsh made no element in volume {}", tag));
-  }
-  return warnings;
+  for (const auto& [dim, tag] : volumes)
+    if (!has_elements(dim, tag)) throw InputError(fmt::format("Gmsh made no element in volume {}", tag));
+  return log.warnings;
 }
 
 RaisedModel raise_model() {

@@ -16,9 +16,11 @@ bool drop_volumes();
 
 /// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra. Gmsh 4.8 makes
 /// pyramids in one session of a process only: after a finalize() and a second initialize() it crashes.
+/// Volumes without a geometry, too, where the model says what surfaces they have.
+/// \param keep_numbers of nodes and elements that are there
 /// \throws InputError with Gmsh's own words
 /// \return Gmsh's warnings
-std::vector<std::string> mesh_volumes();
+std::vector<std::string> mesh_volumes(bool keep_numbers);
 
 /// What came of raising the order.
 struct RaisedModel {

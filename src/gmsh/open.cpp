@@ -11,8 +11,10 @@
 #include <regex>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/groups.hpp"
 #include "gmsh/merge.hpp"
 #include "gmsh/meshing.hpp"
+#include "gmsh/msh2_text.hpp"
 #include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
 #include "qmorph/error.hpp"
@@ -41,42 +43,33 @@ bool has_surfaces() {
   return !surfaces.empty();
 }
 
-/// For binary files, which are not taken apart (msh2_groups.hpp).
-void refuse_mixed_groups(const MshHeader& header, const Msh2Origin& origin) {
-  if (header.version == 0 || header.version >= 4) return;
+/// An entity in several physical groups, and how many. In files before MSH 4 each element has its own.
+std::optional<std::pair<std::pair<int, int>, std::size_t>> mixed_entity(const Msh2Origin& origin) {
   ::gmsh::vectorpair entities;
   ::gmsh::model::getEntities(entities);
   for (const auto& [dim, tag] : entities) {
     std::vector<int> groups;
     ::gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
-    if (groups.size() > 1 && !origin.more_groups.count({dim, tag}))
-      throw InputError(fmt::format(
-          "elements with elementary tag {} (dimension {}) are in {} physical groups, which Gmsh cannot keep "
-          "apart; give each group its own elementary tag, or write the file in ASCII or as MSH 4.1",
-          tag, dim, groups.size()));
+    if (groups.size() > 1 && !origin.more_groups.count({dim, tag})) return {{{dim, tag}, groups.size()}};
   }
+  return std::nullopt;
 }
 
-/// Groups cannot be added to: they are made anew.
+/// For files of MSH 1 and 3, which are not taken apart (msh2_groups.hpp).
+void refuse_mixed_groups(const MshHeader& header, const Msh2Origin& origin) {
+  if (header.version == 0 || header.version >= 4) return;
+  if (const auto mixed = mixed_entity(origin))
+    throw InputError(
+        fmt::format("elements with elementary tag {} (dimension {}) are in {} physical groups, which Gmsh cannot keep "
+                    "apart; give each group its own elementary tag, or write the file as MSH 2.2 or 4.1",
+                    mixed->first.second, mixed->first.first, mixed->second));
+}
+
 void add_groups(const Msh2Origin& origin) {
   std::map<std::pair<int, int>, std::vector<int>> members;
   for (const auto& [entity, groups] : origin.more_groups)
     for (int group : groups) members[{entity.first, group}].push_back(entity.second);
-  for (const auto& [group, entities] : members) {
-    const auto [dim, tag] = group;
-    std::string name;
-    ::gmsh::model::getPhysicalName(dim, tag, name);
-    std::vector<int> all;
-    ::gmsh::vectorpair groups;
-    ::gmsh::model::getPhysicalGroups(groups, dim);
-    if (std::count(groups.begin(), groups.end(), group)) {
-      ::gmsh::model::getEntitiesForPhysicalGroup(dim, tag, all);
-      ::gmsh::model::removePhysicalGroups({group});
-    }
-    all.insert(all.end(), entities.begin(), entities.end());
-    ::gmsh::model::addPhysicalGroup(dim, all, tag);
-    if (!name.empty()) ::gmsh::model::setPhysicalName(dim, tag, name);
-  }
+  for (const auto& [group, entities] : members) add_to_group(group.first, group.second, entities);
 }
 
 /// Gmsh keeps one of several elements that have the same number, and says nothing. Partitions add some.
@@ -129,6 +122,23 @@ StageLog open_file(const std::string& path) {
   return log;
 }
 
+/// Opens a file of MSH 2, taken apart if one elementary tag is in several groups. Binary files are looked into only if
+/// Gmsh has found such a tag, and as text.
+StageLog open_msh2(const std::string& path, bool binary, Msh2Origin& origin) {
+  const bool may_part = get_option("Mesh.SwitchElementTags") == 0;
+  const ScratchFile text(".msh"), rewritten(".msh");
+  StageLog log;
+  if (binary) log = open_file(path);
+  if (binary && (!may_part || !log.errors.empty() || !mixed_entity(origin))) return log;
+  if (binary) {
+    write_msh2_as_text(path, text.path());
+    ::gmsh::clear();
+  }
+  const std::string& source = binary ? text.path() : path;
+  if (may_part) origin = separate_groups(source, rewritten.path());
+  return open_file(origin.empty() ? source : rewritten.path());
+}
+
 }  // namespace
 
 /// Gmsh before 4.12 says nothing about a missing file, and asks no further about the others (notes, trap 3).
@@ -151,10 +161,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   if (!options.ignore_periodicity) set_option("Mesh.IgnorePeriodicity", 0);  // MSH 2 would lose it (notes 1.5)
 
   auto start = std::chrono::steady_clock::now();
-  const ScratchFile rewritten(".msh");
-  if (opened.msh.is_2() && !opened.msh.binary && get_option("Mesh.SwitchElementTags") == 0)
-    opened.origin = separate_groups(path, rewritten.path());
-  const StageLog log = open_file(opened.origin.empty() ? path : rewritten.path());
+  const StageLog log = opened.msh.is_2() ? open_msh2(path, opened.msh.binary, opened.origin) : open_file(path);
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
   std::vector<ViewStep> merged_data;
   for (const std::string& file : options.merged) {

@@ -77,7 +77,7 @@ void refuse_volume(const ModelMesh& mesh, const NodeUse& use, const Elements& el
     if (use.volume[triangle[0]] && use.volume[triangle[1]] && use.volume[triangle[2]])
       throw SurfaceError(fmt::format(
           "it bounds a volume that is meshed already (at {}), whose tetrahedra fit triangles only; --drop-volumes "
-          "removes them, and -3 meshes volumes of a geometry on the quads",
+          "removes them, and with -3 the volumes are meshed again on the quads",
           describe_node(mesh, triangle[0])));
 }
 

@@ -77,6 +77,29 @@ TEST_CASE("groups of MSH 2: the same elements once for each group, as Gmsh write
   CHECK(snapshot.groups.at({2, 50}).second == std::vector<int>{1, 2});
 }
 
+TEST_CASE("groups of MSH 2: a binary file is read as the ASCII one is") {
+  const TemporaryDirectory directory;
+  for (bool binary : {false, true})
+    make_msh(directory / (binary ? "b.msh" : "a.msh"), 2.2, binary, [] {
+      build_two_squares();
+      ::gmsh::model::addPhysicalGroup(2, {1, 2}, 50);
+      ::gmsh::model::addPhysicalGroup(1, {4}, 60);
+    });
+  for (const char* name : {"a", "b"}) {
+    const Result result = run_qmorph({directory / (name + std::string(".msh")), "-setnumber", "Mesh.Binary", "0", "-o",
+                                      directory / (name + std::string(".out.msh"))});
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+  }
+  const Snapshot a = read_snapshot(directory / "a.out.msh"), b = read_snapshot(directory / "b.out.msh");
+  REQUIRE(a.mesh.tags == b.mesh.tags);
+  for (std::size_t row = 0; row < a.mesh.tags.size(); ++row)
+    CHECK((a.mesh.points[row] - b.mesh.points[row]).norm() < 1e-12);  // Gmsh's ASCII has 16 digits
+  CHECK(run_qmorph({directory / "b.msh", "-o", directory / "c.msh"}).status == 0);
+  CHECK(mentions(read_file(directory / "c.msh"), "2.2 1 8"));
+  CHECK(count_elements(read_file(directory / "a.out.msh")) == count_elements(read_file(directory / "b.out.msh")));
+}
+
 TEST_CASE("groups of MSH 2: some elements twice and others not make no sense") {
   const TemporaryDirectory directory;
   const Grid grid;

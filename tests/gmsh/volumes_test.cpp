@@ -40,16 +40,38 @@ TEST_CASE("volumes: -3 meshes them on the quads, with a pyramid on each") {
   CHECK(counts.count(kTriangle) == 0);
 }
 
-TEST_CASE("volumes: -3 of a mesh without geometry is refused, and nothing is written") {
+TEST_CASE("volumes: -3 works without a geometry, also where tetrahedra are dropped before") {
+  for (const int dimension : {2, 3}) {
+    CAPTURE(dimension);
+    const TemporaryDirectory directory;
+    write_file(directory / "in.geo", kBox);
+    make_msh(directory / "in.msh", 4.1, false, [&] {
+      ::gmsh::merge(directory / "in.geo");
+      ::gmsh::model::mesh::generate(dimension);
+    });
+    const std::string command = fmt::format("'{}' -v 0 -3 --drop-volumes '{}' -o '{}'", QMORPH_COMMAND,
+                                            directory / "in.msh", directory / "out.msh");
+    REQUIRE(std::system(command.c_str()) == 0);
+    const Snapshot in = read_snapshot(directory / "in.msh"), out = read_snapshot(directory / "out.msh");
+    const auto counts = count_types(out);
+    CHECK(counts.at(kQuad) == counts.at(kPyramid));
+    CHECK(counts.at(kTetrahedron) > 0);
+    CHECK(counts.count(kTriangle) == 0);
+    CHECK(in.groups == out.groups);
+    CHECK(out.groups.at({3, 3}) == Snapshot::Group{"body", {1}});
+  }
+}
+
+TEST_CASE("volumes: -3 says what it needs where the file does not say which surfaces a volume has") {
   const TemporaryDirectory directory;
-  make_msh(directory / "in.msh", 4.1, false, [] {
+  make_msh(directory / "in.msh", 2.2, false, [] {
     ::gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
     ::gmsh::model::occ::synchronize();
     ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.4);
-    ::gmsh::model::mesh::generate(2);
+    ::gmsh::model::mesh::generate(3);
   });
-  const Result result = run_qmorph({"-3", directory / "in.msh", "-o", directory / "out.msh"});
-  CAPTURE(result.err);
+  const Result result = run_qmorph({"-3", "--drop-volumes", directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.err == "qmorph: the file does not say what surfaces volume 1 has; with MSH 4.1 it would\n");
   CHECK(result.status == 2);
   CHECK(directory.files() == std::vector<std::string>{"in.msh"});
 }
