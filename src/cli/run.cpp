@@ -247,11 +247,16 @@ Options engine_options(const Request& request) {
 
 /// What comes after the quads: volumes on them, the order of all elements, partitions.
 /// \return what is not as it should be
-std::vector<std::string> finish_model(const Request& request, adapter::OpenedModel& opened) {
+std::vector<std::string> finish_model(const Request& request, adapter::OpenedModel& opened, adapter::Session& session) {
   const auto note = [&](const std::vector<std::string>& warnings) {
     opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
   };
-  if (request.dimension == 3) note(adapter::mesh_volumes(opened.had_mesh));
+  try {
+    if (request.dimension == 3) note(adapter::mesh_volumes(opened.had_mesh));
+  } catch (const adapter::BrokenModel&) {
+    session.leave();
+    throw;
+  }
   const adapter::RaisedModel raised = adapter::raise_model();
   note(raised.warnings);
   if (!opened.had_mesh) adapter::renumber();
@@ -293,7 +298,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   Options options = engine_options(request);
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
-  const adapter::Session session(request.gmsh_arguments);
+  adapter::Session session(request.gmsh_arguments);
   adapter::check_format(plan);
   adapter::OpenedModel opened = open(request, err);
 
@@ -310,7 +315,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
     return kNothingToConvert;
   }
 
-  const std::vector<std::string> bent = finish_model(request, opened);
+  const std::vector<std::string> bent = finish_model(request, opened, session);
   if (is_as_it_was(request, plan, opened, model)) even.reset();  // OUT has the curves of IN
 
   const Clock::time_point write_start = Clock::now();

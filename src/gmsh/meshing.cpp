@@ -100,7 +100,12 @@ void make_meshable(int volume) {
   if (sides.empty())
     throw InputError(fmt::format("the file does not say what surfaces volume {} has; with MSH 4.1 it would", volume));
   std::vector<int> surfaces, groups;
-  for (const auto& side : sides) surfaces.push_back(side.second);
+  for (const auto& side : sides) {
+    surfaces.push_back(side.second);
+    // Gmsh crashes there.
+    if (!has_elements(2, side.second))
+      throw InputError(fmt::format("volume {} cannot be meshed: its surface {} has no elements", volume, side.second));
+  }
   ::gmsh::model::getPhysicalGroupsForEntity(3, volume, groups);
   const StageLog log = run_logged([&] {
     ::gmsh::model::removeEntities({{3, volume}});
@@ -160,7 +165,8 @@ std::vector<std::string> mesh_volumes(bool keep_numbers) {
     const ScopedOption renumber("Mesh.Renumber", keep_numbers ? 0 : 1);
     ::gmsh::model::mesh::generate(3);
   });
-  if (!log.errors.empty()) throw InputError("Gmsh cannot mesh the volumes on these quads: " + first_errors(log));
+  // Elements of several volumes are in each of them then, and freed twice.
+  if (!log.errors.empty()) throw BrokenModel("Gmsh cannot mesh the volumes on these quads: " + first_errors(log));
   for (const auto& [dim, tag] : volumes)
     if (!has_elements(dim, tag)) throw InputError(fmt::format("Gmsh made no element in volume {}", tag));
   return log.warnings;

@@ -18,7 +18,7 @@ bool drop_volumes();
 /// pyramids in one session of a process only: after a finalize() and a second initialize() it crashes.
 /// Volumes without a geometry, too, where the model says what surfaces they have.
 /// \param keep_numbers of nodes and elements that are there
-/// \throws InputError with Gmsh's own words
+/// \throws InputError; BrokenModel with Gmsh's own words
 /// \return Gmsh's warnings
 std::vector<std::string> mesh_volumes(bool keep_numbers);
 

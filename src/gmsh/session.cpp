@@ -41,6 +41,7 @@ Session::Session(const std::vector<std::string>& arguments) {
 }
 
 Session::~Session() {
+  if (left_) return;
   try {
     ::gmsh::finalize();
   } catch (...) {  // a destructor has nobody to tell

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "qmorph/error.hpp"
+
 namespace qmorph::adapter {
 
 /// Gmsh from construction to destruction. One at a time.
@@ -17,6 +19,17 @@ class Session {
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
+  /// Gmsh is not ended: for a process that ends soon, and a model that cannot be taken down.
+  void leave() { left_ = true; }
+
+ private:
+  bool left_ = false;
+};
+
+/// Gmsh has failed in a way after which it crashes when it is ended: `Session::leave`.
+class BrokenModel : public InputError {
+ public:
+  using InputError::InputError;
 };
 
 /// What Gmsh said during one stage, without the "Error: " before it.

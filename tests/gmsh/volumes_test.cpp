@@ -62,6 +62,31 @@ TEST_CASE("volumes: -3 works without a geometry, also where tetrahedra are dropp
   }
 }
 
+TEST_CASE("volumes: where Gmsh cannot make pyramids, on quads between two volumes, it is said and there is no crash") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {1, 0, 0, 1, 1, 1};\nCoherence;\n"
+             "Mesh.MeshSizeMax = 0.4;\n");
+  const int status = std::system(
+      fmt::format("'{}' -v 0 -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str());
+  CHECK(WEXITSTATUS(status) == 2);
+  CHECK(read_file(directory / "err").find("non-manifold quad boundaries not supported yet") != std::string::npos);
+  CHECK(directory.files() == std::vector<std::string>{"err", "in.geo"});
+}
+
+TEST_CASE("volumes: -3 names a surface without elements") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kBox);
+  make_msh(directory / "in.msh", 4.1, false, [&] {
+    ::gmsh::merge(directory / "in.geo");
+    ::gmsh::model::mesh::generate(2);
+    ::gmsh::model::mesh::clear({{2, 4}});
+  });
+  const Result result = run_qmorph({"-3", directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.err == "qmorph: volume 1 cannot be meshed: its surface 4 has no elements\n");
+  CHECK(result.status == 2);
+}
+
 TEST_CASE("volumes: -3 says what it needs where the file does not say which surfaces a volume has") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 2.2, false, [] {
