@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <map>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -26,9 +25,8 @@ namespace {
 /// The mesh of a file that is to be merged, and what hangs on its entities.
 struct Guest {
   ModelMesh mesh;
-  std::vector<std::vector<int>> boundary;                  ///< of each entity, with signs
-  std::map<std::pair<int, int>, std::vector<int>> groups;  ///< entities of each
-  std::map<std::pair<int, int>, std::string> group_names;
+  std::vector<std::vector<int>> boundary;  ///< of each entity, with signs
+  std::vector<PhysicalGroup> groups;
   std::vector<PeriodicLink> links;
   std::vector<ViewStep> data;
   bool partitioned = false;
@@ -49,12 +47,7 @@ Guest read_guest() {
     guest.boundary.emplace_back();
     for (const auto& side : sides) guest.boundary.back().push_back(side.second);
   }
-  ::gmsh::vectorpair groups;
-  ::gmsh::model::getPhysicalGroups(groups);
-  for (const auto& [dim, tag] : groups) {
-    ::gmsh::model::getEntitiesForPhysicalGroup(dim, tag, guest.groups[{dim, tag}]);
-    ::gmsh::model::getPhysicalName(dim, tag, guest.group_names[{dim, tag}]);
-  }
+  guest.groups = read_physical_groups();
   for (const EntityMesh& entity : guest.mesh.entities) {
     std::vector<int> partitions;
     ::gmsh::model::getPartitions(entity.dim, entity.tag, partitions);
@@ -137,9 +130,9 @@ bool have_common_entities(const ModelMesh& host, const Guest& guest) {
     if (!entity.element_count() || !with_elements.count({entity.dim, entity.tag})) return false;
     std::vector<int> groups, theirs;
     ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
-    for (const auto& [group, entities] : guest.groups)
-      if (group.first == entity.dim && std::count(entities.begin(), entities.end(), entity.tag))
-        theirs.push_back(group.second);
+    for (const PhysicalGroup& group : guest.groups)
+      if (group.dim == entity.dim && std::count(group.entities.begin(), group.entities.end(), entity.tag))
+        theirs.push_back(group.tag);
     std::sort(groups.begin(), groups.end());
     return groups != theirs;
   });
@@ -206,10 +199,10 @@ void add_elements(const Elements& host, const EntityMesh& entity, const Shift& s
 
 /// The first file's name of a group wins.
 void add_groups(const Guest& guest, const Shift& shift) {
-  for (const auto& [group, entities] : guest.groups) {
-    std::vector<int> tags = entities;
-    for (int& tag : tags) tag += shift.entity[std::size_t(group.first)];
-    add_to_group(group.first, group.second, tags, guest.group_names.at(group));
+  for (const PhysicalGroup& group : guest.groups) {
+    std::vector<int> tags = group.entities;
+    for (int& tag : tags) tag += shift.entity[std::size_t(group.dim)];
+    add_to_group(group.dim, group.tag, tags, group.name);
   }
 }
 
