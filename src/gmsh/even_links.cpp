@@ -1,11 +1,12 @@
 #include "gmsh/even_links.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <tuple>
 
-#include "gmsh/compat.hpp"
 #include "gmsh/patches.hpp"
+#include "gmsh/periodic.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -15,16 +16,8 @@ struct Side {
   Index low, high;
   std::uint32_t surface;
   Index triangle;  ///< numbered through all surfaces that are converted; kNone for any other element
-  bool may_split;  ///< of a linear triangle
+  int order;       ///< of its element
 };
-
-int corners_of(int type) {
-  std::string name;
-  int dim = 0, order = 0, nodes = 0, primary_nodes = 0;
-  std::vector<double> local;
-  ::gmsh::model::mesh::getElementProperties(type, name, dim, order, nodes, local, primary_nodes);
-  return primary_nodes;
-}
 
 std::vector<Side> sorted_sides(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces, Index& triangles) {
   std::vector<Side> sides;
@@ -33,13 +26,13 @@ std::vector<Side> sorted_sides(const ModelMesh& mesh, const std::vector<std::uin
     if (mesh.entities[e].dim != 2) continue;
     const bool converted = std::binary_search(surfaces.begin(), surfaces.end(), e);
     for (const ElementBlock& block : mesh.entities[e].blocks) {
-      const auto corners = std::size_t(corners_of(block.type));
+      const std::size_t corners = block.corners;
       const bool counts = converted && corners == 3;
       for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element) {
         for (std::size_t k = 0; k < corners; ++k) {
           const Index a = mesh.rows.find(block.nodes[i + k]), b = mesh.rows.find(block.nodes[i + (k + 1) % corners]);
           if (a != kNone && b != kNone)
-            sides.push_back({std::min(a, b), std::max(a, b), e, counts ? triangles : kNone, block.type == kTriangle3});
+            sides.push_back({std::min(a, b), std::max(a, b), e, counts ? triangles : kNone, block.order});
         }
         triangles += counts;
       }
@@ -61,35 +54,115 @@ void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   }
 }
 
-/// Curves that get no node: the user's, and periodic ones.
-std::set<int> held_curves(const ModelMesh& mesh, const std::set<int>& keep_curves) {
-  std::set<int> held = keep_curves;
-  for (const EntityMesh& entity : mesh.entities) {
-    if (entity.dim != 1) continue;
-    int master = entity.tag;
-    std::vector<std::size_t> nodes, master_nodes;
-    std::vector<double> transformation;
-    ::gmsh::model::mesh::getPeriodicNodes(1, entity.tag, master, nodes, master_nodes, transformation, false);
-    if (master != entity.tag) held.insert({entity.tag, master});
-  }
-  return held;
-}
+using Edge = std::pair<Index, Index>;  ///< rows, the smaller one first
 
-/// Edges with a line element of a held curve, or one that is not linear; sorted.
-std::vector<std::pair<Index, Index>> held_edges(const ModelMesh& mesh, const std::set<int>& held) {
-  std::vector<std::pair<Index, Index>> edges;
+struct Line {
+  Edge edge;
+  int curve, order;
+  bool operator<(const Line& other) const { return std::tie(edge, curve) < std::tie(other.edge, other.curve); }
+};
+
+/// The line elements of all curves, by their ends.
+std::vector<Line> sorted_lines(const ModelMesh& mesh) {
+  std::vector<Line> lines;
   for (const EntityMesh& entity : mesh.entities) {
     if (entity.dim != 1) continue;
-    for (const ElementBlock& block : entity.blocks) {
-      if (block.type == kLine2 && !held.count(entity.tag)) continue;
+    for (const ElementBlock& block : entity.blocks)
       for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element) {
         const Index a = mesh.rows.find(block.nodes[i]), b = mesh.rows.find(block.nodes[i + 1]);
-        edges.emplace_back(std::min(a, b), std::max(a, b));
+        lines.push_back({std::minmax(a, b), entity.tag, block.order});
       }
-    }
   }
-  std::sort(edges.begin(), edges.end());
-  return edges;
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+/// An edge on the boundary of regions that may get a node.
+struct Candidate {
+  Edge edge;
+  std::vector<Index> regions;  ///< whose parity changes; one may be there twice
+  double length;
+  std::set<int> curves;  ///< that it is on
+};
+
+/// Edges that only get a node together: those that are images of one another, on periodic curves.
+class Images {
+ public:
+  explicit Images(const std::vector<Candidate>& candidates) : candidates_(candidates), parent_(candidates.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    lonely_.assign(candidates.size(), false);
+  }
+  void join(const ModelMesh& mesh, const PeriodicLink& link);
+  /// Candidates that go together, without those that miss an image.
+  std::vector<std::vector<Index>> groups();
+
+ private:
+  Index root(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  Index find(const Edge& edge) const {
+    const auto at = std::lower_bound(candidates_.begin(), candidates_.end(), edge,
+                                     [](const Candidate& candidate, const Edge& e) { return candidate.edge < e; });
+    return at == candidates_.end() || at->edge != edge ? kNone : Index(at - candidates_.begin());
+  }
+
+  const std::vector<Candidate>& candidates_;
+  std::vector<Index> parent_;
+  std::vector<bool> lonely_;
+};
+
+void Images::join(const ModelMesh& mesh, const PeriodicLink& link) {
+  std::map<Index, Index> master_of, slave_of;
+  for (const auto& [slave, master] : link.nodes) {
+    const Index s = mesh.rows.find(slave), m = mesh.rows.find(master);
+    master_of[s] = m;
+    slave_of[m] = s;
+  }
+  const auto look = [&](int curve, const std::map<Index, Index>& image) {
+    for (Index i = 0; i < candidates_.size(); ++i) {
+      if (!candidates_[i].curves.count(curve)) continue;
+      const auto a = image.find(candidates_[i].edge.first), b = image.find(candidates_[i].edge.second);
+      const Index other = a == image.end() || b == image.end() ? kNone : find(std::minmax(a->second, b->second));
+      if (other == kNone)
+        lonely_[i] = true;
+      else
+        parent_[std::max(root(i), root(other))] = std::min(root(i), root(other));
+    }
+  };
+  look(link.slave, master_of);
+  look(link.master, slave_of);
+}
+
+std::vector<std::vector<Index>> Images::groups() {
+  std::map<Index, std::vector<Index>> members;
+  std::set<Index> lonely;
+  for (Index i = 0; i < candidates_.size(); ++i) {
+    members[root(i)].push_back(i);
+    if (lonely_[i]) lonely.insert(root(i));
+  }
+  std::vector<std::vector<Index>> groups;
+  for (auto& [first, group] : members)
+    if (!lonely.count(first)) groups.push_back(std::move(group));
+  return groups;
+}
+
+/// Leaves out what changes the parity of more than two regions.
+void make_link(const std::vector<Candidate>& candidates, const std::vector<Index>& group, RegionGraph& graph) {
+  std::set<Index> changed;
+  parity::Link link{parity::kOutside, parity::kOutside, candidates[group.front()].length, int(group.size())};
+  std::vector<Edge> edges;
+  for (Index i : group) {
+    for (Index region : candidates[i].regions)
+      if (!changed.insert(region).second) changed.erase(region);
+    link.length = std::min(link.length, candidates[i].length);
+    edges.push_back(candidates[i].edge);
+  }
+  if (changed.size() > 2) return;
+  if (!changed.empty()) link.a = *changed.begin();
+  if (changed.size() == 2) link.b = *changed.rbegin();
+  graph.links.push_back(link);
+  graph.edges.push_back(std::move(edges));
 }
 
 /// Regions of triangles that nothing separates: the smallest triangle of each is its root.
@@ -143,27 +216,34 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
     }
     return region;
   };
-  const std::set<int> held = held_curves(mesh, keep_curves);
-  const auto lines = held_edges(mesh, held);
+  const std::vector<Line> lines = sorted_lines(mesh);
+  std::vector<Candidate> candidates;
   for_each_edge(sides, [&](std::size_t first, std::size_t last) {
     if (is_inside(first, last)) return;
     bool may_split = last - first <= 2;
-    std::vector<Index> beside;
-    for (std::size_t i = first; i < last; ++i) {
-      may_split = may_split && sides[i].triangle != kNone && sides[i].may_split;
-      if (sides[i].triangle == kNone) continue;
-      beside.push_back(region_of(sides[i]));
-      graph.odd[beside.back()] = !graph.odd[beside.back()];
-    }
     const Index a = sides[first].low, b = sides[first].high;
+    Candidate candidate{{a, b}, {}, (mesh.points[a] - mesh.points[b]).norm(), {}};
+    for (std::size_t i = first; i < last; ++i) {
+      may_split = may_split && sides[i].triangle != kNone && sides[i].order == sides[first].order;
+      if (sides[i].triangle == kNone) continue;
+      candidate.regions.push_back(region_of(sides[i]));
+      graph.odd[candidate.regions.back()] = !graph.odd[candidate.regions.back()];
+    }
     if (use.volume[a] && use.volume[b]) may_split = false;
-    if (const std::uint32_t curve = curve_under(mesh, a, b); curve != kNobody && held.count(mesh.entities[curve].tag))
-      may_split = false;
-    if (!may_split || std::binary_search(lines.begin(), lines.end(), std::pair(a, b))) return;
-    beside.resize(2, parity::kOutside);
-    graph.links.push_back({beside[0], beside[1], (mesh.points[a] - mesh.points[b]).norm()});
-    graph.edges.emplace_back(a, b);
+    const auto [from, to] = std::equal_range(lines.begin(), lines.end(), Line{{a, b}, 0, 0},
+                                             [](const Line& s, const Line& t) { return s.edge < t.edge; });
+    for (auto line = from; line != to; ++line) {
+      candidate.curves.insert(line->curve);
+      may_split = may_split && line->order == sides[first].order;
+    }
+    if (const std::uint32_t curve = curve_under(mesh, a, b); curve != kNobody)
+      candidate.curves.insert(mesh.entities[curve].tag);
+    for (int curve : candidate.curves) may_split = may_split && !keep_curves.count(curve);
+    if (may_split) candidates.push_back(std::move(candidate));
   });
+  Images images(candidates);
+  for (const PeriodicLink& link : read_periodic_links(mesh, 1)) images.join(mesh, link);
+  for (const std::vector<Index>& group : images.groups()) make_link(candidates, group, graph);
   return graph;
 }
 

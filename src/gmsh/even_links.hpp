@@ -14,7 +14,7 @@ struct RegionGraph {
   std::vector<bool> odd;
   std::vector<std::uint32_t> surface;  ///< of a region: index into ModelMesh::entities
   std::vector<parity::Link> links;
-  std::vector<std::pair<Index, Index>> edges;  ///< of a link: rows of its two nodes
+  std::vector<std::vector<std::pair<Index, Index>>> edges;  ///< of a link: rows of the ends of each of its edges
 };
 
 /// The curve that an edge of a region's boundary lies on although no line element says so: that of a node inside it. An
@@ -23,8 +23,9 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b);
 
 /// \param surfaces indices of the surfaces to be converted
 /// \param keep_curves tags of curves that get no node
-/// Edges get no node, besides, if an element beside them is not a linear triangle of these surfaces, if more than two elements or a
-/// volume use them, if a line element on them is not linear, or if their curve is periodic.
+/// Edges that are images of one another (periodic curves) get a node together, and count as often. Edges get no node,
+/// besides, if an element beside them is no triangle of these surfaces, if more than two elements or a volume use
+/// them, if elements of several orders do, or if their images change more than two regions.
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves);
 

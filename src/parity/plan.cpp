@@ -18,26 +18,28 @@ struct Step {
   Cost cost;
 };
 
-/// The regions and, last, the outside, with the longest link of each pair.
+/// The regions and, last, the outside, with the best link of each pair: of the fewest edges, and of those the longest.
 class Graph {
  public:
   Graph(std::size_t regions, const std::vector<Link>& links) : outside_(Index(regions)), steps_(regions + 1) {
-    std::map<std::pair<Index, Index>, Index> longest;
     double most = 0;
+    for (const Link& link : links) most = std::max(most, link.length);
+    // However many short edges a plan has, they never weigh as much as one split more.
+    const Cost most_extra = kOneSplit / Cost(steps_.size() + 1);
+    const auto cost_of = [&](const Link& link) {
+      const double shortness = most > 0 ? 1 - link.length / most : 0;
+      return link.splits * kOneSplit + Cost(shortness * double(most_extra));
+    };
+    std::map<std::pair<Index, Index>, Index> best;
     for (Index i = 0; i < links.size(); ++i) {
       const Index a = node_of(links[i].a), b = node_of(links[i].b);
       if (a == b) continue;  // both sides are one region's: nothing changes
-      const auto [at, is_new] = longest.try_emplace(std::minmax(a, b), i);
-      if (!is_new && links[i].length > links[at->second].length) at->second = i;
-      most = std::max(most, links[i].length);
+      const auto [at, is_new] = best.try_emplace(std::minmax(a, b), i);
+      if (!is_new && cost_of(links[i]) < cost_of(links[at->second])) at->second = i;
     }
-    // However many short edges a plan has, they never weigh as much as one split more.
-    const Cost most_extra = kOneSplit / Cost(steps_.size() + 1);
-    for (const auto& [pair, i] : longest) {
-      const double shortness = most > 0 ? 1 - links[i].length / most : 0;
-      const Cost cost = kOneSplit + Cost(shortness * double(most_extra));
-      steps_[pair.first].push_back({pair.second, i, cost});
-      steps_[pair.second].push_back({pair.first, i, cost});
+    for (const auto& [pair, i] : best) {
+      steps_[pair.first].push_back({pair.second, i, cost_of(links[i])});
+      steps_[pair.second].push_back({pair.first, i, cost_of(links[i])});
     }
   }
 

@@ -16,10 +16,11 @@ namespace qmorph::parity {
 /// The outside, as a region.
 inline constexpr Index kOutside = kNone;
 
-/// An edge of the mesh that may get a node.
+/// An edge of the mesh that may get a node, or several that get one together.
 struct Link {
   Index a = kOutside, b = kOutside;  ///< the regions on its two sides
-  double length = 0;
+  double length = 0;                 ///< of the shortest
+  int splits = 1;                    ///< how many edges
 };
 
 struct Plan {

@@ -41,7 +41,9 @@ TEST_CASE("ear: the sharpest corner with a triangle of its own is found, right a
   CHECK(region.node[ear->tip] == 0);
   CHECK(region.node[ear->before] == 2);
   CHECK(region.node[ear->after] == 1);
-  const Patch square{.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}, {0, 2, 3}}};
+  Patch square;
+  square.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
   CHECK_FALSE(sharpest_ear(region_of(square)).has_value());
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/periodic.hpp"
+#include "gmsh/session.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/gmsh.hpp"
 
@@ -71,7 +73,7 @@ const adapter::EntityMesh* find_entity(const Snapshot& snapshot, int dim, int ta
 }
 
 /// What is not as it was: curves and points but the split ones, nodes that are gone, groups.
-void check_rest(const TemporaryDirectory& directory, const std::set<int>& split) {
+void check_rest(const TemporaryDirectory& directory, const std::set<int>& split, std::size_t order = 1) {
   const Snapshot before = read_snapshot(directory / "in.msh"), after = read_snapshot(directory / "out.msh");
   CHECK(before.groups == after.groups);
   for (const adapter::EntityMesh& entity : before.mesh.entities) {
@@ -82,7 +84,7 @@ void check_rest(const TemporaryDirectory& directory, const std::set<int>& split)
     REQUIRE(same);
     const bool is_split = entity.dim == 1 && split.count(entity.tag);
     CHECK(same->element_count() == entity.element_count() + is_split);
-    REQUIRE(same->node_tags.size() == entity.node_tags.size() + is_split);
+    REQUIRE(same->node_tags.size() == entity.node_tags.size() + is_split * order);
     for (std::size_t tag : entity.node_tags) {
       const Index old_row = before.mesh.rows.find(tag), row = after.mesh.rows.find(tag);
       REQUIRE(row != kNone);
@@ -197,17 +199,92 @@ TEST_CASE("--all-quad: surfaces of a file without line elements share the node o
   CHECK(outcome.report["all_quad"]["splits"][0]["where"] == json{1.0, 0.7, 0.0});
 }
 
-TEST_CASE("--all-quad: curves of second order get no node, and that is said") {
+TEST_CASE("--all-quad: on curves of higher order all nodes stay and the new ones lie between them") {
+  for (const int order : {2, 3}) {
+    CAPTURE(order);
+    const TemporaryDirectory directory;
+    write_file(directory / "in.geo", two_squares(4));
+    make_msh(directory / "in.msh", 4.1, false, [&] {
+      ::gmsh::merge(directory / "in.geo");
+      ::gmsh::model::mesh::generate(2);
+      ::gmsh::model::mesh::setOrder(order);
+    });
+    const Outcome outcome = run_all_quad(directory);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.report["total"]["triangles"] == 0);
+    CHECK(outcome.split_curves() == std::set<int>{2});
+    check_rest(directory, {2}, std::size_t(order));
+  }
+}
+
+TEST_CASE("--all-quad: a curve of second order keeps its shape") {
   const TemporaryDirectory directory;
-  write_file(directory / "in.geo", two_squares(4));
-  make_msh(directory / "in.msh", 4.1, false, [&] {
-    ::gmsh::merge(directory / "in.geo");
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    ::gmsh::model::occ::addDisk(0, 0, 0, 1, 1);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::model::mesh::setTransfiniteCurve(1, 16);
     ::gmsh::model::mesh::generate(2);
     ::gmsh::model::mesh::setOrder(2);
   });
   const Outcome outcome = run_all_quad(directory);
-  CHECK(outcome.report["all_quad"]["odd_surfaces"] == json{1, 2});
-  CHECK(outcome.report["total"]["triangles"] == 2);
+  CHECK(outcome.status == 0);
+  CHECK(outcome.report["total"]["triangles"] == 0);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  const double sagitta = 1 - std::cos(std::acos(-1) / 15);
+  for (const auto& block : find_entity(after, 1, 1)->blocks)
+    for (std::size_t tag : block.nodes)
+      CHECK(1 - after.mesh.points[after.mesh.rows.find(tag)].norm() < sagitta * sagitta);
+}
+
+TEST_CASE("--all-quad: of periodic curves both get the node, and they stay periodic") {
+  const TemporaryDirectory directory;
+  // Two odd squares; the lower side of the one is the master of that of the other.
+  make_msh(directory / "in.msh", 4.1, false, [&] {
+    write_file(directory / "in.geo", R"(
+      Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
+      Point(5) = {3, 0, 0}; Point(6) = {4, 0, 0}; Point(7) = {4, 1, 0}; Point(8) = {3, 1, 0};
+      Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+      Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
+      Transfinite Curve {1:8} = 5; Transfinite Curve {3, 7} = 6;
+      Curve Loop(1) = {1:4}; Plane Surface(1) = {1}; Curve Loop(2) = {5:8}; Plane Surface(2) = {2};
+      Periodic Curve {5} = {1} Translate {3, 0, 0};
+    )");
+    ::gmsh::merge(directory / "in.geo");
+    ::gmsh::model::mesh::generate(2);
+  });
+  const Outcome outcome = run_all_quad(directory, {"--keep-curves", "2,3,4,6,7,8"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(outcome.report["total"]["triangles"] == 0);
+  CHECK(outcome.split_curves() == std::set<int>{1, 5});
+  CHECK(outcome.report["all_quad"]["splits"].size() == 2);
+  const adapter::Session session;
+  adapter::set_option("Mesh.IgnorePeriodicity", 0);
+  adapter::run_logged([&] { ::gmsh::open(directory / "out.msh"); });
+  const adapter::ModelMesh mesh = adapter::read_model_mesh();
+  const auto links = adapter::read_periodic_links(mesh, 1);
+  REQUIRE(links.size() == 1);
+  CHECK(links[0].nodes.size() == 6);
+  for (const auto& [slave, master] : links[0].nodes) {
+    const Eigen::Vector3d step = mesh.points[mesh.rows.find(slave)] - mesh.points[mesh.rows.find(master)];
+    CHECK((step - Eigen::Vector3d(3, 0, 0)).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("--all-quad: a node on periodic curves of one surface would change nothing, so another curve gets it") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [&] {
+    write_file(directory / "in.geo", R"(
+      SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 1, 1}; Transfinite Curve {2, 4, 3} = 5;
+      Transfinite Curve {1} = 6; Periodic Curve {2} = {-4} Translate {1, 0, 0};
+    )");
+    ::gmsh::merge(directory / "in.geo");
+    ::gmsh::model::mesh::generate(2);
+  });
+  const Outcome outcome = run_all_quad(directory);
+  CHECK(outcome.status == 0);
+  CHECK(outcome.report["total"]["triangles"] == 0);
+  CHECK(outcome.split_curves() == std::set<int>{3});
 }
 
 TEST_CASE("make_even: in a running session, and what makes no sense is refused with the model unchanged") {

@@ -127,6 +127,14 @@ TEST_CASE("plan: long edges are preferred, but never for one split more") {
   CHECK(plan_splits({true, true, false, false}, detours).splits == std::vector<Index>{0, 1});
 }
 
+TEST_CASE("plan: edges that go together count each") {
+  const std::vector<Link> links = {{0, 1, 5, 3}, {0, 2, 1}, {2, 1, 1}, {0, kOutside, 9, 2}};
+  CHECK(plan_splits({true, true, false}, links).splits == std::vector<Index>{1, 2});
+  CHECK(plan_splits({true, false, false}, links).splits == std::vector<Index>{3});
+  const std::vector<Link> cheaper = {{0, 1, 5, 2}, {0, 1, 1, 1}};
+  CHECK(plan_splits({true, true}, cheaper).splits == std::vector<Index>{1});
+}
+
 TEST_CASE("plan: where no edge may be split, one region stays odd and is named") {
   const std::vector<Link> links = {{0, 1, 1}, {1, 2, 1}, {3, 3, 1}};
   const Plan plan = plan_splits({true, true, true, true}, links);
