@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gmsh/compat.hpp"
+#include "gmsh/groups.hpp"
 #include "gmsh/high_order.hpp"
 #include "gmsh/model_mesh.hpp"
 #include "gmsh/session.hpp"
@@ -52,11 +53,15 @@ constexpr std::array kConsumers = {
              .right_handed = true},
     // gmshToFoam.C: version 2 in ASCII; quads are patches of the cells behind them.
     Consumer{.name = "openfoam", .title = "gmshToFoam", .format = "msh2", .needs_volumes = true},
+    // LibGmsh2Specfem: the first element says by its type whether there are 4 or 9 nodes, and must be a line; names are
+    // looked up, and one that is missing ends it.
     Consumer{.name = "specfem2d",
              .title = "SPECFEM2D",
              .format = "msh2",
              .max_order = 2,
              .only_quads = true,
+             .points = false,
+             .specfem_names = true,
              .needs_surface_groups = true,
              .right_handed = true},
 };
@@ -101,6 +106,7 @@ class Collector {
   void add_entity(const EntityMesh& entity);
   void complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups);
   void complain_of_elements();
+  void complain_of_names();
   bool is_inner_line(const ElementBlock& block, std::size_t i) const;
   bool is_clockwise(const ElementBlock& block, std::size_t i) const;
   std::size_t number(std::size_t tag);
@@ -151,6 +157,7 @@ void Collector::add_entity(const EntityMesh& entity) {
   std::vector<int> groups;
   ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
   if (entity.blocks.empty() || (groups.empty() && !everything_)) return;
+  if (entity.dim == 0 && !consumer_.points) return;
   complain_of_groups(entity, groups);
   for (const ElementBlock& block : entity.blocks)
     for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
@@ -169,9 +176,30 @@ void Collector::add_entity(const EntityMesh& entity) {
     }
 }
 
+/// The converter of SPECFEM2D looks for these.
+void Collector::complain_of_names() {
+  std::set<std::string> missing = {"Bottom", "Left", "Right", "Top"};
+  std::string wrong;
+  for (const PhysicalGroup& group : read_physical_groups()) {
+    if (group.dim == 1) missing.erase(group.name);
+    const bool is_medium =
+        group.name.size() > 1 && group.name[0] == 'M' &&
+        std::all_of(group.name.begin() + 1, group.name.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (group.dim == 2 && !is_medium)
+      wrong += fmt::format("{}{} \"{}\"", wrong.empty() ? "" : ", ", group.tag, group.name);
+  }
+  if (!missing.empty())
+    result_.complaints.push_back(fmt::format("{} wants physical curves Top, Bottom, Left and Right, and there is no {}",
+                                             consumer_.title, fmt::join(missing, ", ")));
+  if (!wrong.empty())
+    result_.complaints.push_back(
+        fmt::format("{} wants physical surfaces to be named M1, M2, ..., and there is {}", consumer_.title, wrong));
+}
+
 void Collector::complain_of_elements() {
   std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
   int order = 1;
+  std::set<int> orders;
   std::map<int, ElementType> types;
   for (const ConsumerElement& element : result_.elements) {
     if (!types.count(element.type)) types[element.type] = element_type(element.type);
@@ -180,6 +208,7 @@ void Collector::complain_of_elements() {
     if (element.dim == 3) ++volumes;
     if (element.dim == 1 && !element.groups.empty()) ++grouped_lines;
     order = std::max(order, type.order);
+    if (element.dim > 0) orders.insert(type.order);
     if (element.dim == 2 && type.corners == 4 && type.order > 1 && type.incomplete() != consumer_.wants_incomplete &&
         consumer_.max_order > 1 && consumer_.name != "elmer")
       ++types[-1].nodes;
@@ -198,6 +227,10 @@ void Collector::complain_of_elements() {
   if (order > consumer_.max_order)
     say(fmt::format("its elements are of order {}, and {} takes order {} at most", order, consumer_.title,
                     consumer_.max_order));
+  if (orders.size() > 1)
+    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(orders, " and "),
+                    consumer_.title));
+  if (consumer_.specfem_names) complain_of_names();
   if (types.count(-1))
     say(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})", consumer_.title,
                     consumer_.wants_incomplete ? "8" : "9", consumer_.wants_incomplete ? 1 : 0));

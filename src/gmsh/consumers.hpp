@@ -19,6 +19,8 @@ struct Consumer {
   bool only_quads = false;        ///< a triangle in it cannot be read, or is read and then spoils the computation
   bool needs_volumes = false;     ///< reads cells of dimension 3 only
   bool inner_lines = true;        ///< takes line elements between two surface elements
+  bool points = true;             ///< takes point elements
+  bool specfem_names = false;     ///< curves Top, Bottom, Left and Right; surfaces M1, M2, ...
   bool needs_surface_groups = false;
   bool needs_curve_groups = false;
   bool right_handed = false;  ///< planar meshes must be counterclockwise; they are turned

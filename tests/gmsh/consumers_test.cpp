@@ -56,7 +56,7 @@ struct Run {
 }  // namespace
 
 TEST_CASE("consumers: MSH 2.2 in ASCII with numbers from 1, one group for each element") {
-  for (const char* reader : {"dealii", "mfem", "dolfinx", "elmer", "specfem2d"}) {
+  for (const char* reader : {"dealii", "mfem", "dolfinx", "elmer"}) {
     CAPTURE(reader);
     const Run run(reader, square());
     CAPTURE(run.result.err);
@@ -150,6 +150,33 @@ TEST_CASE("consumers: clockwise surfaces are turned for readers that want them c
   };
   CHECK(area("mfem") > 0);
   CHECK(area("elmer") < 0);
+}
+
+TEST_CASE("consumers: SPECFEM2D's converter gets lines first, and the names that it looks for") {
+  const std::string named =
+      "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.2;\n"
+      "Physical Surface(\"M1\", 11) = {1}; Physical Curve(\"Bottom\", 12) = {1}; Physical Curve(\"Right\", 13) = {2};\n"
+      "Physical Curve(\"Top\", 14) = {3}; Physical Curve(\"Left\", 15) = {4}; Physical Point(\"source\", 16) = {1};\n";
+  for (const char* order : {"1", "2"}) {
+    const Run run("specfem2d", named, {"-order", order});
+    CAPTURE(run.result.err);
+    REQUIRE(run.result.status == 0);
+    CHECK(elements_of(run.text).front()[1] == (*order == '1' ? 1 : 8));
+  }
+  const Run unnamed("specfem2d", square());
+  CHECK(unnamed.result.status == 6);
+  CHECK(mentions(unnamed.result.err,
+                 "wants physical curves Top, Bottom, Left and Right, and there is no Bottom, Left, Right, Top"));
+  CHECK(mentions(unnamed.result.err, "wants physical surfaces to be named M1, M2, ..., and there is 1 \"plate\""));
+}
+
+TEST_CASE("consumers: elements of two orders are no mesh for them") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 0, 0}, {5, 0, 0}, {4, 0, 0}},
+                                         {"2 2 1 1 1 2 3", "2 2 1 1 1 3 4", "8 2 2 1 5 6 7"}));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--for", "mfem"});
+  CHECK(result.status == 6);
+  CHECK(mentions(result.err, "its elements are of orders 1 and 2, and MFEM takes one for all"));
 }
 
 TEST_CASE("consumers: the family of a deck's elements") {
