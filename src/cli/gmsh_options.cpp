@@ -67,6 +67,7 @@ constexpr std::array kRows = {
     Row{"setlist", -1, kPassed, "text"},
     Row{"string", 1, kPassed, "text"},
     Row{"option", 1, kPassed, "text"},
+    Row{"bgm", 1, kPassed, "text"},
 
     Row{"quad", 0, kNothing, ""},
     Row{"merge", 0, kNothing, ""},
@@ -105,7 +106,6 @@ constexpr std::array kRows = {
     Row{"reparam", 1, kRefused, kElsewhere},
     Row{"check", 0, kRefused, "--check, with two dashes, judges a mesh"},
     Row{"convert", 0, kRefused, kElsewhere},
-    Row{"bgm", 1, kRefused, "say it in the script: Merge \"FILE\"; Background Mesh View[0];"},
     Row{"part_weight", 2, kRefused, "-setnumber Mesh.PartitionQuadWeight N, and so on for other elements"},
     Row{"part_split", 0, kRefused, "the mesh goes into one file"},
     Row{"part_ghosts", 0, kRefused, "ghost cells are made by gmsh -part_ghosts from the quads"},

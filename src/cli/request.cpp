@@ -123,6 +123,7 @@ void note_gmsh_option(const GmshOptionRow& row, const std::vector<std::string>& 
   request.gmsh_arguments.push_back(fmt::format("-{}", row.name));
   request.gmsh_arguments.insert(request.gmsh_arguments.end(), values.begin(), values.end());
   if (row.name == "algo") request.algorithm_chosen = true;
+  if (row.name == "bgm") request.background = values[0];
   if (row.name == "ignore_periodicity") request.ignore_periodicity = true;
   if (row.name == "order" || row.name == "degree") request.order_chosen = true;
   if (row.name != "setnumber" && row.name != "setstring") return;
@@ -261,6 +262,9 @@ Request parse(const std::vector<std::string>& arguments) {
   }
   if (request.help || request.version) return request;
   if (inputs.empty()) throw UsageError("which file? (qmorph IN [-o OUT])");
+  if (std::count(inputs.begin(), inputs.end(), "-") && inputs.size() > 1)
+    throw UsageError(
+        "-: the standard input is read alone; gmsh's \"parse and exit\" is not here, since it writes nothing");
   request.input = inputs.front();
   request.merged.assign(inputs.begin() + 1, inputs.end());
   if (volumes) request.dimension = 3;

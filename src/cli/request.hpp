@@ -33,8 +33,9 @@ struct Request {
   bool no_meshing = false;  ///< -save: what has no elements gets none
   bool drop_volumes = false;
   bool ignore_periodicity = false;
-  int dimension = 2;   ///< 3: volumes are meshed on the quads
-  int partitions = 0;  ///< of -part
+  std::string background;  ///< -bgm, or empty
+  int dimension = 2;       ///< 3: volumes are meshed on the quads
+  int partitions = 0;      ///< of -part
   bool algorithm_chosen = false, order_chosen = false;
   std::optional<double> msh_version;        ///< of -setnumber Mesh.MshFileVersion
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary

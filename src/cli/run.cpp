@@ -271,8 +271,8 @@ adapter::OpenedModel open(const Request& request, std::ostream& err) {
   for (const std::string& name : request.option_names)
     if (!adapter::option_exists(name) && request.verbosity >= 1)
       err << "warning: this Gmsh has no option " << name << '\n';
-  adapter::OpenedModel opened =
-      adapter::open_model(request.input, {request.merged, request.no_meshing, request.ignore_periodicity});
+  adapter::OpenedModel opened = adapter::open_model(
+      request.input, {request.merged, request.background, request.no_meshing, request.ignore_periodicity});
   if (request.drop_volumes) adapter::drop_volumes();
   return opened;
 }
@@ -283,7 +283,7 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
   {
     const StdoutAsStderr redirected;
     const adapter::Session session(request.gmsh_arguments);
-    adapter::open_model(request.input, {request.merged, true, request.ignore_periodicity});
+    adapter::open_model(request.input, {request.merged, {}, true, request.ignore_periodicity});
     model = measure(request.surfaces);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));

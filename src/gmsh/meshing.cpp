@@ -75,22 +75,32 @@ double area_or_one(int surface) {
   return log.errors.empty() ? area : 1;
 }
 
-void check_every_surface_has_elements() {
-  for (int tag : all_surfaces()) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    ::gmsh::model::mesh::getElements(types, tags, nodes, 2, tag);
-    // The surface that Compound Surface makes hands its elements to those that it is made of.
-    if (types.empty() && entity_type(2, tag) != "Discrete surface" && area_or_one(tag) > 0)
-      throw InputError(fmt::format("Gmsh made no element on surface {}", tag));
-  }
-}
-
 bool has_elements(int dim, int tag) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
   ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
   return !types.empty();
+}
+
+/// The surface that Compound Surface makes hands its elements to those that it is made of, to narrow ones sometimes none.
+/// \return what is without elements for that reason
+std::vector<std::string> check_every_surface_has_elements() {
+  bool compound = false;
+  std::vector<int> bare;
+  for (int tag : all_surfaces()) {
+    if (has_elements(2, tag)) continue;
+    const bool discrete = entity_type(2, tag) == "Discrete surface";
+    compound = compound || discrete;
+    if (!discrete && area_or_one(tag) > 0) bare.push_back(tag);
+  }
+  if (!bare.empty() && !compound) throw InputError(fmt::format("Gmsh made no element on surface {}", bare.front()));
+  if (bare.empty()) return {};
+  return {fmt::format("Gmsh gave no element of a compound to surfaces {}", fmt::join(bare, ", "))};
+}
+
+/// Requests for homology are answered after each dimension, and before there are elements with a complaint.
+void forgive_homology(StageLog& log) {
+  std::erase_if(log.errors, [](const std::string& error) { return error.find("Cell Complex is empty") == 0; });
 }
 
 /// A volume of a file without geometry is not meshed by Gmsh; one of its built-in kernel inside the same surfaces is.
@@ -127,7 +137,7 @@ std::vector<std::string> mesh_surfaces() {
   // Frontal-Delaunay for quads crashes in a Gmsh without the ANN library, like Debian's, unless it needs no neighbours.
   if (get_option("Mesh.Algorithm") == 8) set_option("Mesh.CrossFieldClosestPoint", 0);
 #endif
-  const StageLog log = run_logged([&] {
+  StageLog log = run_logged([&] {
     const RecombinationOff off;
     set_option("Mesh.RecombineAll", 1);
     ::gmsh::model::mesh::generate(1);
@@ -135,8 +145,10 @@ std::vector<std::string> mesh_surfaces() {
     if (!flagged.empty()) forbid_pairing(flagged);
     ::gmsh::model::mesh::generate(2);
   });
+  forgive_homology(log);
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
-  check_every_surface_has_elements();
+  const std::vector<std::string> bare = check_every_surface_has_elements();
+  log.warnings.insert(log.warnings.end(), bare.begin(), bare.end());
   return log.warnings;
 }
 

@@ -139,6 +139,20 @@ StageLog open_msh2(const std::string& path, bool binary, Msh2Origin& origin) {
   return open_file(origin.empty() ? source : rewritten.path());
 }
 
+/// What -bgm does in Gmsh's own command.
+void set_background(const std::string& path) {
+  check_readable(path);
+  std::vector<int> before, views;
+  ::gmsh::view::getTags(before);
+  const ScratchFile script(".geo");
+  StageLog log = run_logged([&] { ::gmsh::merge(path); });
+  ::gmsh::view::getTags(views);
+  if (views.size() == before.size()) throw InputError(fmt::format("-bgm: there is no view in {}", path));
+  std::ofstream(script.path()) << "Background Mesh View[" << views.size() - 1 << "];\n";
+  if (log.errors.empty()) log = run_logged([&] { ::gmsh::merge(script.path()); });
+  if (!log.errors.empty()) throw InputError(fmt::format("-bgm {}: {}", path, first_errors(log)));
+}
+
 }  // namespace
 
 /// Gmsh before 4.12 says nothing about a missing file, and asks no further about the others (notes, trap 3).
@@ -168,6 +182,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
     const std::vector<ViewStep> data = merge_file(file);
     merged_data.insert(merged_data.end(), data.begin(), data.end());
   }
+  if (!options.background.empty()) set_background(options.background);
   take_control();
   check_element_count(path, contents, opened.origin);
   add_groups(opened.origin);

@@ -31,6 +31,7 @@ struct OpenedModel {
 /// How to open.
 struct OpenOptions {
   std::vector<std::string> merged;  ///< further files, merged after the first and before anything is meshed
+  std::string background;           ///< file with a view that says what sizes elements have, or empty
   bool no_meshing = false;          ///< surfaces without elements stay so
   bool ignore_periodicity = false;  ///< of the file
 };

@@ -72,6 +72,7 @@ TEST_CASE("gmsh options: the library knows each that is passed on") {
     REQUIRE(row);
     arguments.push_back(name);
     if (name == "-algo") arguments.push_back("front2d");
+    if (name == "-bgm") arguments.push_back("sizes.pos");
     if (name == "-option") arguments.push_back("/dev/null");
     if (name == "-string") arguments.push_back("a = 1;");
     if (name == "-setstring") arguments.insert(arguments.end(), {"name", "value"});
@@ -102,7 +103,7 @@ TEST_CASE("gmsh options: texts and option files set sizes, also a file beside th
 }
 
 TEST_CASE("gmsh options: what asks for something else is refused by name") {
-  for (const char* option : {"-0", "-1", "-refine", "-check", "-bgm", "-part_split", "-parse_and_exit", "-convert",
+  for (const char* option : {"-0", "-1", "-refine", "-check", "-part_split", "-parse_and_exit", "-convert",
                              "-reclassify", "-new", "-log", "-watch"}) {
     CAPTURE(option);
     const Result result = run_qmorph({option, "1", "in.geo"});
@@ -136,6 +137,29 @@ TEST_CASE("gmsh options: -save meshes nothing, and -meshscale scales what is wri
     for (const auto& p : read_snapshot(directory / "out.msh").mesh.points) largest = std::max(largest, p.x());
     CHECK(largest == doctest::Approx(10));
   }
+}
+
+TEST_CASE("gmsh options: -bgm takes sizes from a view") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  write_file(directory / "sizes.pos", "View \"sizes\" { SQ(0,0,0, 1,0,0, 1,1,0, 0,1,0){0.05,0.05,0.05,0.05}; };\n");
+  write_file(directory / "none.pos", "a = 1;\n");
+  REQUIRE(run_qmorph({directory / "in.geo"}).status == 0);
+  const std::size_t coarse = count_quads(directory / "in.msh");
+  const Result result = run_qmorph({directory / "in.geo", "-2", "-bgm", directory / "sizes.pos"});
+  CAPTURE(result.err);
+  REQUIRE(result.status == 0);
+  CHECK(count_quads(directory / "in.msh") > 2 * coarse);
+  CHECK(run_qmorph({directory / "in.geo", "-bgm", directory / "none.pos"}).status == 2);
+  CHECK(run_qmorph({directory / "in.geo", "-bgm", directory / "missing.pos"}).status == 2);
+}
+
+TEST_CASE("gmsh options: - beside a file is refused by name") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  const Result result = run_qmorph({directory / "in.geo", "-"});
+  CHECK(result.status == 1);
+  CHECK(result.err.find("qmorph: -: ") == 0);
 }
 
 TEST_CASE("gmsh options: - is the standard output, with nothing else on it") {

@@ -192,3 +192,30 @@ TEST_CASE("geometry: surfaces that a Compound Surface joins are converted one by
   const Snapshot after = read_snapshot(directory / "in.msh");
   for (int surface : {1, 2}) CHECK(element_counts(after, surface).first == 0);
 }
+
+TEST_CASE("geometry: a narrow surface of a compound may get no element, which is said") {
+  // The geometry of Gmsh's tutorial t12 in short.
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", R"(
+    Point(1) = {0, 0, 0, 0.1}; Point(2) = {1, 0, 0, 0.1}; Point(3) = {1, 1, 0, 0.1}; Point(4) = {0, 1, 0, 0.1};
+    Point(6) = {0, 0.01, 0, 0.1}; Point(8) = {1, 0.02, 0, 0.1};
+    Line(1) = {1, 2}; Line(2) = {2, 8}; Line(4) = {8, 3}; Line(5) = {3, 4}; Line(6) = {4, 6}; Line(8) = {6, 1};
+    Line(10) = {6, 8};
+    Curve Loop(1) = {4, 5, 6, 10}; Plane Surface(1) = {1}; Curve Loop(2) = {1, 2, -10, 8}; Plane Surface(2) = {2};
+    Compound Curve{2, 4}; Compound Curve{6, 8}; Compound Surface{1, 2};
+  )");
+  const Result result = run_qmorph({directory / "in.geo", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  CHECK(result.err.find("Gmsh gave no element of a compound to surfaces 2") != std::string::npos);
+}
+
+TEST_CASE("geometry: a request for homology does not stop the meshing") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nPhysical Surface(1) = {1};\n"
+             "Homology {{1}, {}};\n");
+  const Result result = run_qmorph({directory / "in.geo", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+}
