@@ -16,7 +16,7 @@ std::string check_line(const ModelReport& model);
 /// The same for the model, with the seconds of the whole run and the file that it is in now.
 std::string total_line(const ModelReport& model, const std::string& output, double seconds);
 
-/// `--all-quad: 2 segments got a node, on curves 4, 7; surface 3 stays odd`
+/// `--all-quad: 2 segments got a node, on curves 4, 7 (3 regions had an odd boundary); surface 3 stays odd`
 std::string even_line(const EvenReport& even);
 
 }  // namespace qmorph::report

@@ -111,7 +111,8 @@ TEST_CASE("--all-quad: two odd neighbours share one new node, and nothing else c
     CHECK(outcome.report["all_quad"]["splits"].size() == 1);
     CHECK(outcome.split_curves() == std::set<int>{2});
     CHECK(outcome.report["all_quad"]["splits"][0]["surfaces"] == json{1, 2});
-    CHECK(outcome.err.find("--all-quad: 1 segment got a node, on curve 2\n") != std::string::npos);
+    CHECK(outcome.err.find("--all-quad: 1 segment got a node, on curve 2 (2 regions had an odd boundary)\n") !=
+          std::string::npos);
     check_rest(directory, {2});
   }
 }
@@ -288,8 +289,7 @@ TEST_CASE("--all-quad: a node on periodic curves of one surface would change not
 }
 
 TEST_CASE("make_even: in a running session, and what makes no sense is refused with the model unchanged") {
-  ::gmsh::initialize(0, nullptr, false);
-  ::gmsh::option::setNumber("General.Terminal", 0);
+  const RunningGmsh gmsh;
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", two_squares(4));
   ::gmsh::merge(directory / "in.geo");
@@ -301,7 +301,6 @@ TEST_CASE("make_even: in a running session, and what makes no sense is refused w
   CHECK(even.splits.size() == 1);
   CHECK(make_even().odd_regions == 0);
   CHECK(recombine().total.triangles == 0);
-  ::gmsh::finalize();
 }
 
 TEST_CASE("--all-quad: words that go with it") {
@@ -322,4 +321,28 @@ TEST_CASE("--all-quad: where no surface can be converted, the output is the inpu
   CHECK(outcome.status == 3);
   CHECK_FALSE(outcome.report.contains("all_quad"));
   CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
+}
+
+TEST_CASE("--all-quad: a grid of odd squares gets half as many nodes, which is the least") {
+  // A node changes the parity of two regions at most.
+  const int n = 4;
+  std::string script = "SetFactory(\"OpenCASCADE\");\n";
+  for (int i = 0; i < n * n; ++i) script += fmt::format("Rectangle({}) = {{{}, {}, 0, 1, 1}};\n", i + 1, i % n, i / n);
+  script += "BooleanFragments{ Surface{:}; Delete; }{}\nTransfinite Curve {:} = 4;\n";
+  // Lower sides of four segments, all others of three: the boundary of each square is odd.
+  script += fmt::format(
+      "For k In {{0 : {0}}}\n  c() = Curve In BoundingBox {{-0.1, 2 * k - 0.1, -0.1, {0} + 0.1, 2 * k + 0.1, 0.1}};\n"
+      "  Transfinite Curve {{c()}} = 5;\nEndFor\n",
+      n);
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", script);
+  make_msh(directory / "in.msh", 4.1, false, [&] {
+    ::gmsh::merge(directory / "in.geo");
+    ::gmsh::model::mesh::generate(2);
+  });
+  const Outcome outcome = run_all_quad(directory);
+  CAPTURE(outcome.err);
+  CHECK(outcome.report["all_quad"]["odd_regions"] == n * n);
+  CHECK(outcome.report["all_quad"]["splits"].size() == n * n / 2);
+  CHECK(outcome.report["total"]["triangles"] == 0);
 }

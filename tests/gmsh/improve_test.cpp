@@ -13,14 +13,6 @@ using namespace qmorph::test;
 
 namespace {
 
-struct Gmsh {
-  Gmsh() {
-    ::gmsh::initialize(0, nullptr, false);
-    ::gmsh::option::setNumber("General.Terminal", 0);
-  }
-  ~Gmsh() { ::gmsh::finalize(); }
-};
-
 /// What Gmsh makes of two squares that share a curve. 0: simple, 1: Blossom.
 void build_recombined(int algorithm) {
   build_two_squares();
@@ -44,7 +36,7 @@ TEST_CASE("improve_quads: Gmsh's quads become better ones, and nothing else chan
     CAPTURE(algorithm);
     const TemporaryDirectory directory;
     make_msh(directory / "in.msh", 4.1, false, [&] { build_recombined(algorithm); });
-    const Gmsh gmsh;
+    const RunningGmsh gmsh;
     ::gmsh::open(directory / "in.msh");
     const ModelReport report = improve_quads();
     ::gmsh::option::setNumber("Mesh.SaveAll", 1);
@@ -63,7 +55,7 @@ TEST_CASE("improve_quads: Gmsh's quads become better ones, and nothing else chan
 }
 
 TEST_CASE("improve_quads: only the surfaces that are asked for") {
-  const Gmsh gmsh;
+  const RunningGmsh gmsh;
   build_recombined(1);
   const auto tags_of = [](int surface) {
     std::vector<int> types;

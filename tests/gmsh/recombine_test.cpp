@@ -16,15 +16,6 @@ using namespace qmorph::test;
 
 namespace {
 
-/// Gmsh as a program gets it, with its own defaults.
-struct Gmsh {
-  Gmsh() {
-    ::gmsh::initialize(0, nullptr, false);
-    ::gmsh::option::setNumber("General.Terminal", 0);
-  }
-  ~Gmsh() { ::gmsh::finalize(); }
-};
-
 double option(const char* name) {
   double value = 0;
   ::gmsh::option::getNumber(name, value);
@@ -40,7 +31,7 @@ std::size_t count_elements(int type) {
 }  // namespace
 
 TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
-  const Gmsh gmsh;
+  const RunningGmsh gmsh;
   build_two_squares();
   const double abort_on_error = option("General.AbortOnError"), verbosity = option("General.Verbosity");
   const std::size_t lines = count_elements(adapter::kLine2);
@@ -61,7 +52,7 @@ TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
 }
 
 TEST_CASE("recombine: two models in one process, one after the other") {
-  const Gmsh gmsh;
+  const RunningGmsh gmsh;
   build_two_squares();
   const ModelReport first = recombine();
   ::gmsh::clear();
@@ -72,7 +63,7 @@ TEST_CASE("recombine: two models in one process, one after the other") {
 }
 
 TEST_CASE("recombine: a surface that is not there leaves the model alone") {
-  const Gmsh gmsh;
+  const RunningGmsh gmsh;
   build_two_squares();
   const std::size_t triangles = count_elements(adapter::kTriangle3);
   CHECK_THROWS_WITH_AS(recombine({1, 99}), "the model has no surface 99", UsageError);
@@ -81,7 +72,7 @@ TEST_CASE("recombine: a surface that is not there leaves the model alone") {
 }
 
 TEST_CASE("recombine: nodes of CAD surfaces keep parameters, and a volume can be meshed on the quads") {
-  const Gmsh gmsh;
+  const RunningGmsh gmsh;
   ::gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
   ::gmsh::model::occ::synchronize();
   ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.25);
@@ -103,6 +94,6 @@ TEST_CASE("recombine: nodes of CAD surfaces keep parameters, and a volume can be
 }
 
 TEST_CASE("recombine: an empty model has an empty report") {
-  const Gmsh gmsh;
+  const RunningGmsh gmsh;
   CHECK(recombine().surfaces.empty());
 }

@@ -86,6 +86,13 @@ std::vector<std::string> TemporaryDirectory::files() const {
   return names;
 }
 
+RunningGmsh::RunningGmsh() {
+  ::gmsh::initialize(0, nullptr, false);
+  ::gmsh::option::setNumber("General.Terminal", 0);
+}
+
+RunningGmsh::~RunningGmsh() { ::gmsh::finalize(); }
+
 std::string read_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;

@@ -29,6 +29,14 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
+/// Gmsh as a program gets it, with its own defaults.
+struct RunningGmsh {
+  RunningGmsh();
+  ~RunningGmsh();
+  RunningGmsh(const RunningGmsh&) = delete;
+  RunningGmsh& operator=(const RunningGmsh&) = delete;
+};
+
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);
 
