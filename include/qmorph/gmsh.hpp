@@ -84,8 +84,15 @@ struct EvenReport {
 /// sides: `recombine()` leaves no triangle then. It is the only call that changes curves. Existing nodes stay.
 /// \param surfaces as for `recombine()`; others, and edges that they share, stay as they are
 /// \param keep_curves tags of curves that get no node
-/// \throws UsageError for a surface or a curve that the model does not have; InputError as `recombine()` does, and for
-///         models with periodic surfaces. The model is unchanged then.
+/// \throws UsageError for a surface or a curve that the model does not have; InputError as `recombine()` does. The model is
+///         unchanged then.
 EvenReport make_even(const std::vector<int>& surfaces = {}, const std::vector<int>& keep_curves = {});
+
+namespace gmsh {
+
+/// `qmorph::recombine()` for all surfaces: the stand-in for `gmsh::model::mesh::recombine()` by the name that says so.
+inline ModelReport recombine(const Options& options = {}) { return qmorph::recombine({}, options); }
+
+}  // namespace gmsh
 
 }  // namespace qmorph

@@ -109,6 +109,20 @@ void build_crack() {
   ::gmsh::model::removePhysicalGroups({});
 }
 
+void build_periodic() {
+  add_squares(2);
+  ::gmsh::vectorpair left, right;
+  ::gmsh::model::getEntitiesInBoundingBox(-0.1, -0.1, -0.1, 0.1, 1.1, 0.1, left, 1);
+  ::gmsh::model::getEntitiesInBoundingBox(1.9, -0.1, -0.1, 2.1, 1.1, 0.1, right, 1);
+  mesh::setPeriodic(1, {right[0].second}, {left[0].second}, {1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+  mesh::generate(2);
+}
+
+void build_second_order() {
+  build_transfinite();
+  mesh::setOrder(2);
+}
+
 struct Model {
   const char* name;
   std::function<void()> build;
@@ -124,6 +138,7 @@ const std::vector<Model> kModels = {
     {"tetrahedra elsewhere", build_with_volume, {1}, 3},
     {"orphans", build_orphans, {1}, 0},
     {"gaps in the numbers", build_gaps, {5}, 0},
+    {"periodic curves", build_periodic, {1, 2}, 0},
 };
 
 }  // namespace
@@ -148,6 +163,17 @@ TEST_CASE("matrix: what is not converted is identical, through each version and 
           CHECK(element_counts(after, surface).first <= 1);
         }
       }
+}
+
+TEST_CASE("matrix: second order") {
+  for (const double version : {2.2, 4.1})
+    for (const bool binary : {false, true}) {
+      const TemporaryDirectory directory;
+      make_msh(directory / "in.msh", version, binary, build_second_order);
+      CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh"}).status == 0);
+      const Snapshot before = read_snapshot(directory / "in.msh"), after = read_snapshot(directory / "out.msh");
+      CHECK(difference(before, after, {1, 3}) == "");
+    }
 }
 
 TEST_CASE("matrix: from each version into each other") {

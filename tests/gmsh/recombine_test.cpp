@@ -51,6 +51,14 @@ TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
   CHECK(again.count(SurfaceOutcome::kAlreadyQuads) == 1);
 }
 
+TEST_CASE("recombine: qmorph::gmsh::recombine(options) is the same for all surfaces") {
+  const RunningGmsh gmsh;
+  build_two_squares();
+  const ModelReport report = qmorph::gmsh::recombine(Options());
+  CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+  CHECK(count_elements(adapter::kTriangle3) == 0);
+}
+
 TEST_CASE("recombine: two models in one process, one after the other") {
   const RunningGmsh gmsh;
   build_two_squares();

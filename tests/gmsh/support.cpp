@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "cli/run.hpp"
 #include "gmsh/compat.hpp"
@@ -125,6 +126,9 @@ Snapshot read_snapshot(const std::string& path) {
     ::gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.second);
     std::sort(group.second.begin(), group.second.end());
   }
+  for (int dim : {0, 1})
+    for (const adapter::PeriodicLink& link : adapter::read_periodic_links(snapshot.mesh, dim))
+      snapshot.links.push_back(link);
   return snapshot;
 }
 
@@ -143,6 +147,13 @@ std::string difference(const Snapshot& before, const Snapshot& after, const std:
     if (element_keys(before.mesh, a, compare) != element_keys(after.mesh, b, compare))
       return "elements of " + name_of(a);
   }
+  const auto same_link = [](const adapter::PeriodicLink& a, const adapter::PeriodicLink& b) {
+    return std::tie(a.dim, a.slave, a.master, a.nodes) == std::tie(b.dim, b.slave, b.master, b.nodes);
+  };
+  if (before.links.size() != after.links.size()) return "number of periodic links";
+  if (compare == Compare::kTags &&
+      !std::equal(before.links.begin(), before.links.end(), after.links.begin(), same_link))
+    return "periodic links";
   return {};
 }
 

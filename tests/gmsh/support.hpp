@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gmsh/model_mesh.hpp"
+#include "gmsh/periodic.hpp"
 
 namespace qmorph::test {
 
@@ -52,6 +53,7 @@ struct Snapshot {
   adapter::ModelMesh mesh;
   using Group = std::pair<std::string, std::vector<int>>;  ///< name, entities
   std::map<std::pair<int, int>, Group> groups;             ///< by dimension and tag
+  std::vector<adapter::PeriodicLink> links;                ///< of points and curves
 };
 Snapshot read_snapshot(const std::string& path);
 
