@@ -112,7 +112,7 @@ bool fill_star(Mesh& mesh, const std::vector<Index>& ring, const Filling& fillin
 
 }  // namespace
 
-std::optional<Filling> filling_between(const std::vector<int>& corners, int n) {
+std::optional<Filling> filling_between(std::span<const int> corners, int n) {
   const int k = int(corners.size());
   Filling filling;
   filling.corners = k;

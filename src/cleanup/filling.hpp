@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "kernel/mesh.hpp"
@@ -23,7 +24,7 @@ int quads_of(const Filling& filling, int n);
 
 /// The filling with these corners of a ring with n edges, if there is one: opposite sides of four corners are as long as each
 /// other, spokes are at least one edge long.
-std::optional<Filling> filling_between(const std::vector<int>& corners, int n);
+std::optional<Filling> filling_between(std::span<const int> corners, int n);
 
 /// Replaces the faces inside the ring (half-edges, inside on their left). Appends the new nodes and those of the ring to `nodes`.
 /// False, perhaps half-way, if an edge that it needs is there already outside: to be called in a transaction.

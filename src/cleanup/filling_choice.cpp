@@ -1,8 +1,10 @@
 #include "cleanup/filling_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 namespace qmorph::cleanup {
 namespace {
@@ -51,7 +53,7 @@ class Chooser {
     if (n_ <= kShortOutline) {
       const int half = n_ / 2;
       for (int i = 0; i < half; ++i)
-        for (int j = i + 1; j < half; ++j) offer({i, j, i + half, j + half});
+        for (int j = i + 1; j < half; ++j) offer(std::array{i, j, i + half, j + half});
     } else {
       pick(likely, 0, 4, picked);
     }
@@ -83,7 +85,7 @@ class Chooser {
     }
   }
 
-  void offer(const std::vector<int>& corners) {
+  void offer(std::span<const int> corners) {
     FillingChoice choice;
     choice.cost = places_.side_cost + (corners.size() == 4 ? 0 : 1);
     choice.misfit = places_.side_misfit;

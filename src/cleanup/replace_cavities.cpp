@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostQuads = 80;
 constexpr int kMostGrowth = 6;
 constexpr int kMostTries = 3;  ///< fillings of one cavity
-constexpr int kRings = 2;
+constexpr int kRings = 1;
 
 constexpr double kFloor = 0.4;
 

@@ -156,16 +156,18 @@ Patch cut_quads(const Patch& patch) {
 Mesh join_halves(const Region& region, std::size_t triangles) {
   Mesh mesh(region.points, region.triangles, region.open);
   for (Index v : region.fixed) mesh.set_fixed(v);
-  // The halves of a quad follow one another, and faces are numbered as the triangles are. They are in two regions where a
-  // constraint runs along the diagonal, and then they stay halves.
-  const auto is_first_half = [&](Index f) {
-    return region.row[f] >= triangles && (region.row[f] - triangles) % 2 == 0;
-  };
-  for (Index f = 0; f + 1 < region.row.size(); ++f) {
-    if (!is_first_half(f) || region.row[f + 1] != region.row[f] + 1) continue;
+  // The halves of a quad are rows that follow one another. They are in two regions where a constraint runs along the
+  // diagonal, and then they stay halves.
+  std::vector<std::pair<Index, Index>> halves;  // row, face
+  for (Index f = 0; f < region.row.size(); ++f)
+    if (region.row[f] >= triangles) halves.emplace_back(region.row[f], f);
+  std::sort(halves.begin(), halves.end());
+  for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
+    const auto [row, f] = halves[i];
+    if ((row - triangles) % 2 != 0 || halves[i + 1].first != row + 1) continue;
     Index h = mesh.half_edge(f);
-    for (int i = 0; i < 3 && mesh.target(h) != region.triangles[f][0]; ++i) h = mesh.next(h);
-    if (mesh.face(Mesh::twin(h)) == f + 1) mesh.join_faces(h);
+    for (int k = 0; k < 3 && mesh.target(h) != region.triangles[f][0]; ++k) h = mesh.next(h);
+    if (mesh.face(Mesh::twin(h)) == halves[i + 1].second) mesh.join_faces(h);
   }
   return mesh;
 }

@@ -57,7 +57,7 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
   progress("smoothing", 0);
   SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
-  rough.iterations = std::min(rough.iterations, 3);
+  rough.iterations = std::min(rough.iterations, 2);
   smoothing::smooth(mesh, rough);
   end_stage(Stage::smoothing, mesh, stats_.smoothing_seconds);
   progress("cleanup", 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/spatial_order.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph {
@@ -70,8 +71,7 @@ void require_manifold(const Patch& patch, const Sides& sides) {
     sides.find(sides.from(c), sides.to(c), &count);
     if (count > 1)
       throw SurfaceError("two triangles lie on the same side of the edge from " +
-                         describe(patch.points[sides.from(c)]) + " to " +
-                         describe(patch.points[sides.to(c)]) +
+                         describe(patch.points[sides.from(c)]) + " to " + describe(patch.points[sides.to(c)]) +
                          "; remove overlapping triangles or orient them alike");
   }
 }
@@ -104,7 +104,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
 
   std::vector<Region> regions;
   std::vector<Index> region_of(triangles, kNone), vertex_of(triangles * 3, kNone);
-  for (Index t = 0; t < triangles; ++t) {
+  for (Index t : spatial_order(patch.triangles, plane_points)) {
     const Index root = together.root(t);
     if (region_of[root] == kNone) {
       region_of[root] = Index(regions.size());

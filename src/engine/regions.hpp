@@ -16,9 +16,7 @@ struct Plane {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
   Eigen::Vector3d normal() const { return axis_u.cross(axis_v); }
-  Vec2 to_plane(const Eigen::Vector3d& p) const {
-    return {(p - origin).dot(axis_u), (p - origin).dot(axis_v)};
-  }
+  Vec2 to_plane(const Eigen::Vector3d& p) const { return {(p - origin).dot(axis_u), (p - origin).dot(axis_v)}; }
   Eigen::Vector3d to_space(const Vec2& p) const { return origin + p.x() * axis_u + p.y() * axis_v; }
 };
 
@@ -32,12 +30,13 @@ struct Region {
   std::vector<Vec2> points;
   std::vector<Index> node;  ///< row of Patch::points of each vertex
   std::vector<std::array<Index, 3>> triangles;
-  std::vector<Index> row;   ///< of Patch::triangles, of each triangle
+  std::vector<Index> row;    ///< of Patch::triangles, of each triangle
   std::vector<bool> open;    ///< side 3 * triangle + i is boundary
   std::vector<Index> fixed;  ///< vertices to keep in place that may be inside
   std::size_t boundary_sides = 0;
 };
 
+/// The regions' triangles follow one another as `spatial_order` has them.
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
 

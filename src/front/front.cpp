@@ -1,8 +1,21 @@
 #include "front/front.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace qmorph::front {
+namespace {
+
+constexpr int kForced = 0;
+
+/// Four classes an octave; exact, so that no rounding of a logarithm decides.
+std::int16_t length_class(double length) {
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);  // in [0.5, 1)
+  return std::int16_t(4 * exponent + int((mantissa - 0.5) * 8));
+}
+
+}  // namespace
 
 Front::Front(const Mesh& mesh, const FrontOptions& options)
     : mesh_(mesh), options_(options), corner_cosine_(std::cos(options.corner_angle)) {}
@@ -39,9 +52,12 @@ State Front::state(Index h) const {
 }
 
 void Front::push(Index h, bool forced) {
-  if (h >= stamp_.size()) stamp_.resize(mesh_.half_edge_slots(), 0);
-  const unsigned priority = forced ? 0 : 2 - unsigned(state(h).corners());
-  queue_.push({priority, level(h), float(mesh_.length(h)), h, ++stamp_[h] * 2 + unsigned(forced)});
+  if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
+  const Key key{level(h), std::uint16_t(forced ? kForced : 3 - state(h).corners()), length_class(mesh_.length(h))};
+  Queued& queued = queued_[h];
+  if (queued.is_queued && queued.key == key) return;
+  queued = {key, true};
+  queue_.push({key, h});
 }
 
 void Front::push_around(Index v) {
@@ -57,9 +73,11 @@ Index Front::pop() {
   while (!queue_.empty()) {
     const Entry top = queue_.top();
     queue_.pop();
+    Queued& queued = queued_[top.half_edge];
+    if (!queued.is_queued || queued.key != top.key) continue;
+    queued.is_queued = false;
     if (!mesh_.is_live_half_edge(top.half_edge) || !contains(top.half_edge)) continue;
-    if (stamp_[top.half_edge] != top.stamp / 2) continue;
-    popped_forced_ = top.stamp & 1;
+    popped_forced_ = top.key.priority == kForced;
     return top.half_edge;
   }
   return kNone;

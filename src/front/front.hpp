@@ -5,6 +5,8 @@
 /// quad. So there is no list of front edges that could go stale; kept beside the mesh are only levels,
 /// the colours of loops and a queue.
 
+#include <compare>
+#include <cstdint>
 #include <functional>
 #include <queue>
 #include <vector>
@@ -57,25 +59,30 @@ class Front {
   bool was_forced() const { return popped_forced_; }
 
  private:
+  /// What decides between front edges, the lower the sooner: level, then state, then length. Lengths of one class are equal
+  /// here: neighbours come one after another then, which is good for rows and for caches.
+  struct Key {
+    std::uint32_t level = 0;
+    std::uint16_t priority = 0;  ///< 0 first
+    std::int16_t length_class = 0;
+    auto operator<=>(const Key&) const = default;
+  };
   struct Entry {
-    unsigned priority;  ///< 0 first
-    unsigned level;
-    float length;
+    Key key;
     Index half_edge;
-    unsigned stamp;
-    bool operator>(const Entry& o) const {
-      if (level != o.level) return level > o.level;
-      if (priority != o.priority) return priority > o.priority;
-      if (length != o.length) return length > o.length;
-      return half_edge > o.half_edge;
-    }
+    bool operator>(const Entry& o) const { return key != o.key ? key > o.key : half_edge > o.half_edge; }
+  };
+  /// The entry that counts for a half-edge; older ones with other keys are passed over.
+  struct Queued {
+    Key key;
+    bool is_queued = false;
   };
 
   const Mesh& mesh_;
   FrontOptions options_;
   double corner_cosine_;
   LoggedColumn<unsigned> levels_;
-  std::vector<unsigned> stamp_;
+  std::vector<Queued> queued_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   bool popped_forced_ = false;
 };

@@ -20,8 +20,12 @@ constexpr int kMostRounds = 8;
 class Morph {
  public:
   Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check)
-      : mesh_(mesh), front_(mesh, options), colours_(mesh, front_),
-        step_{mesh, front_, colours_, options, {}, {}, {}, 0}, options_(options), check_(check) {}
+      : mesh_(mesh),
+        front_(mesh, options),
+        colours_(mesh, front_),
+        step_{mesh, front_, colours_, options, {}, {}},
+        options_(options),
+        check_(check) {}
 
   MorphCounts run(const std::function<void(double)>& progress) {
     start();
@@ -43,9 +47,7 @@ class Morph {
   }
 
  private:
-  std::size_t made() const {
-    return counts_.quads + counts_.seams + counts_.transition_seams + counts_.small_loops;
-  }
+  std::size_t made() const { return counts_.quads + counts_.seams + counts_.transition_seams + counts_.small_loops; }
 
   /// Thesis 3.5.3: not selectable until something around the edge has changed.
   void set_aside(Index h) {
@@ -135,6 +137,8 @@ class Morph {
 
   void reclassify() {
     // A node that moved changes the states at its neighbours on the front as well.
+    std::sort(step_.moved.begin(), step_.moved.end());
+    step_.moved.erase(std::unique(step_.moved.begin(), step_.moved.end()), step_.moved.end());
     touched_.clear();
     for (Index v : step_.moved) {
       if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
@@ -164,8 +168,7 @@ class Morph {
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
     if (angle < seam_angle(mesh_.target(in))) {
       if (transition) {
-        if (attempt([&] { return transition_seam(step_, in, out); }))
-          return ++counts_.transition_seams, true;
+        if (attempt([&] { return transition_seam(step_, in, out); })) return ++counts_.transition_seams, true;
       } else if (attempt([&] { return seam(step_, in, out); })) {
         return ++counts_.seams, true;
       }
@@ -199,9 +202,7 @@ class Morph {
   }
 
   /// Quads that should share the angle at a node of the front; the side edge stands off the base edge by one of them.
-  static double quads_in(double angle) {
-    return std::max(2.0, std::round(angle / (0.5 * std::numbers::pi)));
-  }
+  static double quads_in(double angle) { return std::max(2.0, std::round(angle / (0.5 * std::numbers::pi))); }
 
   bool make_quad(Index base) {
     const State state = front_.state(base);
@@ -209,8 +210,8 @@ class Morph {
     if (before == after) return false;  // a loop of two
     const Index n0 = mesh_.origin(base), n1 = mesh_.target(base);
     // The reused sides first: what the other side makes must not end there.
-    Index left = state.left ? before : kNone;    // half-edges of the ring: left N2 -> N0,
-    Index right = state.right ? after : kNone;   // right N1 -> N3
+    Index left = state.left ? before : kNone;   // half-edges of the ring: left N2 -> N0,
+    Index right = state.right ? after : kNone;  // right N1 -> N3
     if (left == kNone) {
       const double angle = front_.angle_left(base);
       const Taken taken{right == kNone ? kNone : mesh_.target(right), right};
@@ -232,9 +233,10 @@ class Morph {
     const Index top = recover_edge(step_, left, n3);  // N2 -> N3
     if (top == kNone) return false;
     const unsigned level = front_.level(base) + 1;
-    const Index quad = form_face(step_, {base, right, Mesh::twin(top), left}, kMostTrianglesInQuad);
+    const std::array<Index, 4> ring{base, right, Mesh::twin(top), left};
+    const Index quad = form_face(step_, ring, kMostTrianglesInQuad);
     if (quad == kNone) return false;
-    finish_quad(quad, {base, right, Mesh::twin(top), left}, level);
+    finish_quad(quad, ring, level);
     return mesh_.is_valid_face(quad);
   }
 

@@ -4,7 +4,7 @@
 
 namespace qmorph::front {
 
-Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_triangles) {
+Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triangles) {
   kernel::Mesh& mesh = step.mesh;
   const auto on_ring = [&](Index h) { return std::find(ring.begin(), ring.end(), h) != ring.end(); };
   const auto is_ring_node = [&](Index v) {
@@ -13,7 +13,8 @@ Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_tri
   if (step.face_mark.size() < mesh.face_slots()) step.face_mark.resize(mesh.face_slots(), 0);
   const unsigned mark = ++step.mark;
 
-  std::vector<Index> inside{mesh.face(ring[0])};
+  std::vector<Index>& inside = step.scratch;
+  inside.assign(1, mesh.face(ring[0]));
   step.face_mark[inside[0]] = mark;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     const Index start = mesh.half_edge(inside[i]);
@@ -34,9 +35,7 @@ Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_tri
     } while (h != start);
   }
   for (Index r : ring)  // the ring must really enclose what was found
-    if (mesh.face(r) == kNone || !mesh.is_triangle(mesh.face(r)) ||
-        step.face_mark[mesh.face(r)] != mark)
-      return kNone;
+    if (mesh.face(r) == kNone || !mesh.is_triangle(mesh.face(r)) || step.face_mark[mesh.face(r)] != mark) return kNone;
   return mesh.make_face(ring, inside);
 }
 

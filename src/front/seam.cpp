@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "front/step.hpp"
 
@@ -52,8 +53,7 @@ bool seam(Step& step, Index incoming, Index outgoing) {
 
   const Index chord = recover_edge(step, incoming, n);  // p -> n, the gap on its right
   if (chord == kNone) return false;
-  if (form_face(step, {outgoing, Mesh::twin(chord), incoming}, kMostTrianglesInGap) == kNone)
-    return false;
+  if (form_face(step, std::array{outgoing, Mesh::twin(chord), incoming}, kMostTrianglesInGap) == kNone) return false;
   const Index gone = free_p ? chord : Mesh::twin(chord);  // starts at the node that vanishes
   const Index kept = mesh.target(gone);
   if (!mesh.can_collapse(gone)) return false;

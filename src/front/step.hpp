@@ -2,6 +2,7 @@
 /// What every step of the advancing front works on. A step either succeeds or reports that it did not; the driver
 /// runs each in a transaction of the mesh, so a step that gives up half-way has changed nothing.
 
+#include <span>
 #include <vector>
 
 #include "front/front.hpp"
@@ -16,11 +17,12 @@ struct Step {
   Front& front;
   LoopColours& colours;
   const FrontOptions& options;
-  LoggedColumn<double> size;           ///< edge length that the input has at a node
-  std::vector<Index> moved;            ///< nodes that the step moved or created
+  LoggedColumn<double> size;  ///< edge length that the input has at a node
+  std::vector<Index> moved;   ///< nodes that the step moved or created
 
-  // Scratch space of flood fills, kept to avoid allocations.
-  std::vector<unsigned> face_mark;
+  // Scratch space, kept to avoid allocations.
+  std::vector<Index> scratch{};
+  std::vector<unsigned> face_mark{};
   unsigned mark = 0;
 };
 
@@ -52,7 +54,7 @@ Index recover_edge(Step& step, Index h, Index v);
 
 /// Replaces the triangles inside a ring of half-edges (interior on their left) by one face; kNone if
 /// there is a hole, a quad or a fixed node inside.
-Index form_face(Step& step, const std::vector<Index>& ring, std::size_t most_triangles);
+Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triangles);
 
 // --- seam.cpp, transition.cpp -------------------------------------------------------------------------------
 

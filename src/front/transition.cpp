@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "front/step.hpp"
 
@@ -16,10 +17,10 @@ constexpr double kTowardsFront = 0.4;
 
 /// The longer of two front edges at k, split at its middle, and the five-sided face behind it.
 struct SplitEdge {
-  Index middle = kNone;   ///< new node
-  Index behind_k = kNone; ///< half-edge behind the front between k and the middle
-  Index behind_p = kNone; ///< half-edge behind the front between the middle and the far node p
-  bool incoming = false;  ///< the longer edge ended at k
+  Index middle = kNone;    ///< new node
+  Index behind_k = kNone;  ///< half-edge behind the front between k and the middle
+  Index behind_p = kNone;  ///< half-edge behind the front between the middle and the far node p
+  bool incoming = false;   ///< the longer edge ended at k
 };
 
 /// Splits the longer edge and the triangle ahead of it. Behind must be a quad.
@@ -68,8 +69,7 @@ bool transition_seam(Step& step, Index incoming, Index outgoing) {
   const Index gap_out = s.incoming ? outgoing : near_half;
   const Index chord = recover_edge(step, gap_in, mesh.target(gap_out));
   if (chord == kNone) return false;
-  if (form_face(step, {gap_out, Mesh::twin(chord), gap_in}, kMostTrianglesInGap) == kNone)
-    return false;
+  if (form_face(step, std::array{gap_out, Mesh::twin(chord), gap_in}, kMostTrianglesInGap) == kNone) return false;
   // The two triangles make a quad.
   const Index quad = mesh.face(mesh.join_faces(near_half));
   step.colours.colour_same(s.middle, k);
@@ -111,8 +111,7 @@ Index transition_split(Step& step, Index longer, Index k) {
   step.moved.push_back(c);
   const Index base = step.front.contains(mc) ? mc : Mesh::twin(mc);
   smooth_around(step, mesh.face(Mesh::twin(base)));
-  if (!step.front.contains(base) || !mesh.is_valid_star(c) || !mesh.is_valid_star(s.middle))
-    return kNone;
+  if (!step.front.contains(base) || !mesh.is_valid_star(c) || !mesh.is_valid_star(s.middle)) return kNone;
   h = mesh.out(c);
   do {
     inherit_level(step, {h, Mesh::twin(h)}, level);

@@ -18,6 +18,50 @@ std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::arra
   return start;
 }
 
+/// Every corner is convex and its squared sine is above `least`. No roots, no divisions.
+bool is_above_in(double least, const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 ab = b - a, bc = c - b, ca = a - c;
+  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm(), area = cross(ab, bc);
+  return area > 0 && area * area > least * std::max({l1 * l2, l2 * l3, l3 * l1});
+}
+
+bool is_above_in(double least, const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
+  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = cd.squaredNorm(), l4 = da.squaredNorm();
+  const double at_a = cross(da, ab), at_b = cross(ab, bc), at_c = cross(bc, cd), at_d = cross(cd, da);
+  return at_a > 0 && at_b > 0 && at_c > 0 && at_d > 0 && at_a * at_a > least * l4 * l1 &&
+         at_b * at_b > least * l1 * l2 && at_c * at_c > least * l2 * l3 && at_d * at_d > least * l3 * l4;
+}
+
+/// sign(area) area^2 / product: a squared sine with the sign of the sine.
+double signed_root(double area, double product) {
+  if (!(product > 0)) return 0;
+  const double sine = std::sqrt(area * area / product);
+  return area < 0 ? -sine : sine;
+}
+
+/// Of a triangle: the smallest angle lies between the two longest sides.
+double smallest_sine_of(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 ab = b - a, bc = c - b, ca = a - c;
+  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm();
+  return signed_root(cross(ab, bc), std::max({l1 * l2, l2 * l3, l3 * l1}));
+}
+
+/// Of a quad. Squares are compared as fractions: one root and one division at the end.
+double smallest_sine_of(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
+  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = cd.squaredNorm(), l4 = da.squaredNorm();
+  const double areas[] = {cross(da, ab), cross(ab, bc), cross(bc, cd), cross(cd, da)};
+  double products[] = {l4 * l1, l1 * l2, l2 * l3, l3 * l4};
+  for (double& product : products)
+    if (!(product > 0)) product = 1;  // a side without length: the area is 0 as well
+  int least = 0;
+  for (int i = 1; i < 4; ++i)
+    if (areas[i] * std::abs(areas[i]) * products[least] < areas[least] * std::abs(areas[least]) * products[i])
+      least = i;
+  return signed_root(areas[least], products[least]);
+}
+
 }  // namespace
 
 Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 3>>& triangles,
@@ -84,16 +128,7 @@ Index Mesh::find(Index a, Index b) const {
   return kNone;
 }
 
-bool Mesh::is_valid_face(Index f) const {
-  const double least = degree(f) == 3 ? kDegenerateSine : kStraightSine;
-  const Index start = half_edge(f);
-  Index h = start;
-  do {
-    if (!is_convex_corner(point(origin(prev(h))), point(origin(h)), point(target(h)), least)) return false;
-    h = next(h);
-  } while (h != start);
-  return true;
-}
+bool Mesh::is_valid_face(Index f) const { return is_above(f, degree(f) == 3 ? kDegenerateSine : kStraightSine); }
 
 bool Mesh::is_valid_star(Index v) const {
   Index h = out(v);
@@ -104,21 +139,36 @@ bool Mesh::is_valid_star(Index v) const {
   return true;
 }
 
-double Mesh::smallest_sine(Index f) const {
-  // Squares with a sign are compared; one root at the end.
-  const Index start = half_edge(f);
-  double smallest = 1;
-  Index h = start;
-  Vec2 back = -vector(prev(start));
+bool Mesh::is_above(Index f, double sine) const {
+  const Index h = half_edge(f), k = next(h), l = next(k);
+  const double least = sine * sine;
+  if (degree(f) == 3) return is_above_in(least, point(origin(h)), point(origin(k)), point(origin(l)));
+  if (degree(f) == 4) return is_above_in(least, point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)));
+  Index e = h;
   do {
-    const Vec2 ahead = vector(h);
-    const double area = cross(ahead, back), lengths = ahead.squaredNorm() * back.squaredNorm();
-    const double squared = lengths > 0 ? area * std::abs(area) / lengths : 0;
-    smallest = std::min(smallest, squared);
-    back = -ahead;
-    h = next(h);
-  } while (h != start);
-  return smallest < 0 ? -std::sqrt(-smallest) : std::sqrt(smallest);
+    if (!is_convex_corner(point(origin(prev(e))), point(origin(e)), point(target(e)), sine)) return false;
+    e = next(e);
+  } while (e != h);
+  return true;
+}
+
+bool Mesh::is_star_above(Index v, double sine) const {
+  Index h = out(v);
+  do {
+    if (face(h) != kNone && !is_above(face(h), sine)) return false;
+    h = rotate_ccw(h);
+  } while (h != out(v));
+  return true;
+}
+
+double Mesh::smallest_sine(Index f) const {
+  const Index h = half_edge(f), k = next(h), l = next(k);
+  if (degree(f) == 3) return smallest_sine_of(point(origin(h)), point(origin(k)), point(origin(l)));
+  if (degree(f) == 4) return smallest_sine_of(point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)));
+  double smallest = 1;
+  for (Index e = h, i = 0; i < degree(f); ++i, e = next(e))
+    smallest = std::min(smallest, corner_sine(point(origin(e)), point(target(e)), point(origin(prev(e)))));
+  return smallest;
 }
 
 double Mesh::smallest_sine_around(Index v) const {
@@ -391,14 +441,14 @@ std::vector<Index> Mesh::pillow(const std::vector<Index>& loop, double share) {
   return copies;
 }
 
-Index Mesh::make_face(const std::vector<Index>& ring, const std::vector<Index>& inside) {
-  std::vector<Index> sides = ring, corners;
+Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside) {
+  auto& [sides, corners, inner, origins] = scratch_;
+  sides.assign(ring.begin(), ring.end());
+  corners.clear(), inner.clear(), origins.clear();
   for (Index r : ring) corners.push_back(origin(r));
   std::sort(sides.begin(), sides.end());
   std::sort(corners.begin(), corners.end());
   const auto on_ring = [&](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
-  std::vector<Index> inner;  // one half-edge of every edge that goes
-  std::vector<Index> origins;
   for (Index f : inside) {
     const Index start = half_edge(f);
     Index h = start;

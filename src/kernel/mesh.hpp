@@ -9,6 +9,7 @@
 ///   - two vertices are joined by one edge at most, or by the two sides of a slit that is one edge long
 ///   - a dead element is reachable from nothing
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,9 @@ class Mesh {
   bool is_valid_face(Index f) const;
   /// Every face around v is valid.
   bool is_valid_star(Index v) const;
+  /// All corners of the face (of the faces around v) are convex and have a larger sine than this. Cheaper than the sine itself.
+  bool is_above(Index f, double sine) const;
+  bool is_star_above(Index v, double sine) const;
   /// Smallest sine of the face's corners, signed: its scaled Jacobian.
   double smallest_sine(Index f) const;
   /// The smallest of those of the faces around v.
@@ -111,7 +115,7 @@ class Mesh {
   std::vector<Index> pillow(const std::vector<Index>& loop, double share);
   /// Replaces everything inside the closed ring of half-edges (interior on their left) by one face.
   /// `faces` are the faces inside. Returns the face.
-  Index make_face(const std::vector<Index>& ring, const std::vector<Index>& inside);
+  Index make_face(std::span<const Index> ring, std::span<const Index> inside);
 
   /// New triangle outside of the boundary half-edge h, with a vertex v that has no element yet, at its point. Returns the face.
   Index attach_triangle(Index h, Index v);
@@ -169,6 +173,13 @@ class Mesh {
   Pool<HalfEdge> edge_pool_;  ///< slots are even half-edges
   Pool<Vertex> vertex_pool_;
   Pool<Face> face_pool_;
+  /// Of make_face(), kept to avoid allocations.
+  struct Scratch {
+    std::vector<Index> sides, corners;
+    std::vector<Index> inner;    ///< one half-edge of every edge that goes
+    std::vector<Index> origins;  ///< of half-edges inside
+  };
+  Scratch scratch_;
   bool recording_ = false;
   bool checks_commits_ = false;
 };

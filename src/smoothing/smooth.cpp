@@ -63,8 +63,7 @@ bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
         break;
       }
     }
-    if (std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); }))
-      return true;
+    if (std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); })) return true;
   }
   return false;
 }
@@ -90,7 +89,7 @@ class Passes {
     }
     for (int pass = 0; pass < kRepairPasses; ++pass)
       for (Index v : nodes)
-        if (mesh_.smallest_sine_around(v) < options_.target_quality) raise_smallest_sine(mesh_, v);
+        if (!mesh_.is_star_above(v, options_.target_quality)) raise_smallest_sine(mesh_, v);
   }
 
  private:
@@ -148,8 +147,7 @@ void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
     Passes(mesh, options).run(nodes);
 }
 
-bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
-                 int rings) {
+bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings) {
   std::vector<Index> around(nodes.begin(), nodes.end());
   for (int ring = 0; ring <= rings; ++ring) {
     std::sort(around.begin(), around.end());
@@ -175,7 +173,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     if (moved < options.move_tolerance) break;
   }
   for (Index v : around)
-    if (mesh.smallest_sine_around(v) < options.target_quality) raise_smallest_sine(mesh, v);
+    if (!mesh.is_star_above(v, options.target_quality)) raise_smallest_sine(mesh, v);
   return std::none_of(around.begin(), around.end(), [&](Index v) { return is_on_neighbour(mesh, v); }) &&
          std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); });
 }

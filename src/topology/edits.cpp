@@ -1,6 +1,7 @@
 #include "topology/edits.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace qmorph::topology {
 
@@ -11,7 +12,7 @@ Index remove_doublet(kernel::Mesh& mesh, Index v) {
   std::vector<Index> ring;
   for (Index start : {h, k})
     for (Index e = mesh.next(start); mesh.target(e) != v; e = mesh.next(e)) ring.push_back(e);
-  return mesh.make_face(ring, {f, g});
+  return mesh.make_face(ring, std::array{f, g});
 }
 
 void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {

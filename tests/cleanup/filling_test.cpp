@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "cleanup/rings.hpp"
 
 namespace {
@@ -59,10 +61,10 @@ TEST_CASE("filling: there is none if a spoke would be half an edge long, or none
 }
 
 TEST_CASE("filling: the first corner may be anywhere on the ring") {
-  const auto filling = filling_between({3, 6, 10, 13}, 14);
+  const auto filling = filling_between(std::array{3, 6, 10, 13}, 14);
   REQUIRE(filling);
   CHECK(quads_of(*filling, 14) == 12);
-  CHECK_FALSE(filling_between({3, 6, 10, 12}, 14));
+  CHECK_FALSE(filling_between(std::array{3, 6, 10, 12}, 14));
 }
 
 TEST_CASE("filling: a polygon gets valid quads, as many as foretold, and one irregular node unless it has four sides") {
@@ -99,7 +101,7 @@ TEST_CASE("filling: two cells get the strip the other way round") {
   const std::vector<Index> outline = {11, 12, 13, 18, 17, 16};
   const std::vector<Index> faces = {mesh.face(edge(mesh, 11, 12)), mesh.face(edge(mesh, 12, 13))};
   std::vector<Index> nodes;
-  const auto turned = filling_between({1, 2, 4, 5}, 6);
+  const auto turned = filling_between(std::array{1, 2, 4, 5}, 6);
   REQUIRE(turned);
   REQUIRE(cleanup::fill(mesh, ring_through(mesh, outline), faces, *turned, nodes));
   CHECK(defect(mesh, false) == "");

@@ -16,7 +16,7 @@ struct Scene {
         options(front_options),
         front(mesh, options),
         colours(mesh, front),
-        step{mesh, front, colours, options, {}, {}, {}, 0} {
+        step{mesh, front, colours, options, {}, {}} {
     for (Index v = 0; v < mesh.vertex_slots(); ++v)
       if (mesh.is_live_vertex(v)) step.size.set(v, mean_edge(v));
     for (Index h = 0; h < mesh.half_edge_slots(); ++h)

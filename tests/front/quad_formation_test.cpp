@@ -1,6 +1,8 @@
 // A ring of edges becomes a face if there are only triangles inside.
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "front/fixture.hpp"
 
 namespace {
@@ -36,7 +38,7 @@ TEST_CASE("form_face: everything inside the ring goes, nodes too") {
 
 TEST_CASE("form_face: a ring of three makes a triangle, and what lies outside stays") {
   Scene s(frame(kTriangles));
-  const Index face = front::form_face(s.step, {s.at(4, 5), s.at(5, 6), s.at(6, 4)}, 10);
+  const Index face = front::form_face(s.step, std::array{s.at(4, 5), s.at(5, 6), s.at(6, 4)}, 10);
   REQUIRE(face != kNone);
   CHECK(s.mesh.degree(face) == 3);
   CHECK(faces_of(s.mesh) == faces_of(frame(kTriangles)));

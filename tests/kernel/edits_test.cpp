@@ -319,7 +319,7 @@ TEST_CASE("make_face replaces what lies in a ring, nodes included") {
   //   0-------1
   Mesh mesh = drawn({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
   const std::vector<Index> ring = {edge(mesh, 0, 1), edge(mesh, 1, 2), edge(mesh, 2, 3), edge(mesh, 3, 0)};
-  const Index quad = mesh.make_face(ring, {0, 1, 2, 3});
+  const Index quad = mesh.make_face(ring, std::vector<Index>{0, 1, 2, 3});
   CHECK(mesh.half_edge(quad) == ring[0]);
   CHECK(mesh.degree(quad) == 4);
   CHECK(faces_of(mesh) == Polygons{{0, 1, 2, 3}});
