@@ -18,6 +18,8 @@ struct ViewStep {
   std::vector<std::size_t> tags;  ///< of nodes or elements, in order
   std::vector<std::vector<double>> values;
 
+  /// By number, as `find` expects it.
+  void sort();
   /// Values of a node or an element, or null.
   const std::vector<double>* find(std::size_t tag) const;
 };
