@@ -161,6 +161,45 @@ std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurf
   return results;
 }
 
+void add_high_order_pairs(const ModelMesh& mesh, PeriodicLink& link) {
+  using Corners = std::set<std::size_t>;
+  struct Element {
+    Corners corners;
+    std::vector<std::size_t> others;
+  };
+  const auto elements_of = [&](int surface) {
+    std::vector<Element> elements;
+    for (const EntityMesh& entity : mesh.entities)
+      for (const ElementBlock& block : entity.blocks)
+        for (std::size_t i = 0; entity.dim == 2 && entity.tag == surface && i < block.nodes.size();
+             i += block.nodes_per_element) {
+          const auto at = block.nodes.begin() + static_cast<std::ptrdiff_t>(i);
+          const auto inner = at + static_cast<std::ptrdiff_t>(block.corners);
+          elements.push_back({{at, inner}, {inner, at + static_cast<std::ptrdiff_t>(block.nodes_per_element)}});
+        }
+    return elements;
+  };
+  const std::map<std::size_t, std::size_t> master_of(link.nodes.begin(), link.nodes.end());
+  std::map<Corners, std::vector<std::size_t>> masters;
+  for (Element& element : elements_of(link.master)) masters[element.corners] = std::move(element.others);
+  std::set<std::pair<std::size_t, std::size_t>> pairs(link.nodes.begin(), link.nodes.end());
+  for (const Element& element : elements_of(link.slave)) {
+    Corners image;
+    for (std::size_t tag : element.corners)
+      if (const auto found = master_of.find(tag); found != master_of.end()) image.insert(found->second);
+    const auto master = masters.find(image);
+    if (master == masters.end()) continue;
+    for (std::size_t tag : master->second) {
+      const Eigen::Vector3d p = transformed(link.transformation, mesh.points[mesh.rows.find(tag)]);
+      const auto distance = [&](std::size_t slave) { return (mesh.points[mesh.rows.find(slave)] - p).squaredNorm(); };
+      const auto nearest = std::min_element(element.others.begin(), element.others.end(),
+                                            [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+      if (nearest != element.others.end()) pairs.emplace(*nearest, tag);
+    }
+  }
+  link.nodes.assign(pairs.begin(), pairs.end());
+}
+
 /// No call sets them, but a file with nothing else in it does, when it is merged.
 void restore_links(const std::vector<PeriodicLink>& links) {
   if (links.empty()) return;

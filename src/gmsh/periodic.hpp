@@ -38,6 +38,10 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
 std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurface& master, const SurfaceMesh& slave,
                                    const ModelMesh& mesh);
 
+/// Adds the nodes between the corners to a link that has the corners.
+/// \param mesh the model's, with the surfaces' new elements
+void add_high_order_pairs(const ModelMesh& mesh, PeriodicLink& link);
+
 /// Tells Gmsh which nodes belong together: it forgets them with the nodes of a surface.
 /// \throws InputError
 void restore_links(const std::vector<PeriodicLink>& links);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -205,8 +206,6 @@ void Run::convert_family(const PeriodicFamily& family, const std::vector<std::ui
                                        [&](std::uint32_t e) { return model_.mesh.entities[e].tag == at; });
       if (entity == entities.end()) throw SurfaceError("it is not to be converted, or has no elements");
       reports.push_back(begin_report(*entity));
-      if (order_of(model_.mesh.entities[*entity]) > 1)
-        throw SurfaceError("periodic surfaces of higher order cannot be converted yet");
       converted[i] = read(*entity);
     }
     const auto master = [&](std::size_t i) -> ConvertedSurface& {
@@ -337,6 +336,7 @@ void Run::restore_periodicity(const std::vector<PartTags>& part_tags) {
   std::map<int, std::size_t> index;
   for (std::size_t i = 0; i < converted_.size(); ++i) index[model_.mesh.entities[converted_[i].surface.entity].tag] = i;
   if (index.empty()) return;
+  std::optional<ModelMesh> now;
   for (PeriodicLink& link : links_) {
     const auto slave = index.find(link.slave), master = index.find(link.master);
     if (slave == index.end() || master == index.end()) continue;
@@ -344,6 +344,9 @@ void Run::restore_periodicity(const std::vector<PartTags>& part_tags) {
     for (std::size_t p = 0; p < part_tags[slave->second].size(); ++p)
       for (std::size_t i = 0; i < part_tags[slave->second][p].size(); ++i)
         link.nodes.emplace_back(part_tags[slave->second][p][i], part_tags[master->second][p][i]);
+    if (order_of(model_.mesh.entities[converted_[slave->second].surface.entity]) == 1) continue;
+    if (!now) now = read_model_mesh();
+    add_high_order_pairs(*now, link);
   }
   restore_links(links_);
 }

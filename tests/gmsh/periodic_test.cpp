@@ -120,6 +120,25 @@ TEST_CASE("periodic: the image of a converted surface is its copy, and the link 
       }
 }
 
+TEST_CASE("periodic: surfaces of higher order stay images of one another, with all their nodes") {
+  for (const auto& build : {build_translated, build_rotated})
+    for (const int order : {2, 3}) {
+      CAPTURE(order);
+      const TemporaryDirectory directory;
+      make_msh(directory / "in.msh", 4.1, false, [&] {
+        build();
+        ::gmsh::model::mesh::setOrder(order);
+      });
+      const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+      CAPTURE(result.err);
+      const Linked out = read_linked(directory / "out.msh");
+      check_image(out);
+      for (const auto& entity : out.mesh.entities)
+        if (entity.dim == 2 && (entity.tag == out.links.front().slave || entity.tag == out.links.front().master))
+          CHECK(entity.polygons(4) != nullptr);
+    }
+}
+
 TEST_CASE("periodic: from a geometry, and in a running session") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo",
