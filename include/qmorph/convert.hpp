@@ -1,6 +1,10 @@
 #pragma once
 /// The engine's door.
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "qmorph/error.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
@@ -29,5 +33,17 @@ QuadMesh convert(const Patch& patch, const Options& options = {});
 /// \throws SurfaceError as convert() does, and where an element that is turned over cannot be turned back by moving nodes.
 /// Cost: linear in the number of elements.
 QuadMesh improve(const Patch& patch, const Options& options = {});
+
+/// What became of one surface of several.
+struct Outcome {
+  std::optional<QuadMesh> mesh;
+  std::string reason;  ///< message of the SurfaceError, if there is no mesh
+  double seconds = 0;  ///< of this surface; others may have been worked on meanwhile
+};
+
+/// convert() or improve() of several surfaces side by side, on `Options::threads` threads. Outcomes are in the order of the
+/// patches. Throws nothing but what convert() throws besides SurfaceError.
+std::vector<Outcome> convert_all(const std::vector<const Patch*>& patches, const Options& options = {});
+std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options = {});
 
 }  // namespace qmorph

@@ -94,10 +94,13 @@ struct Options {
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
   /// take no more triangles than this; the best result counts. 0: never.
   std::size_t retry_triangles = 4000;
-  bool check_each_step =
-      false;  ///< look at what every operation has made, and in the front at the whole mesh: slow, for tests
+  /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
+  bool check_each_step = false;
   bool measure_stages = false;  ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
-  /// Called now and then with the stage's name and the share done (0 to 1). May be empty.
+  /// Threads at most; 0: as many as the machine has. The result does not depend on it.
+  int threads = 0;
+  /// Called now and then with the name of a stage that is at work and the share of all that is done (0 to 1): one call at a time,
+  /// but not always from the same thread. May be empty.
   std::function<void(std::string_view stage, double share)> progress;
 };
 

@@ -39,7 +39,7 @@ constexpr std::array kRows = {
     Row{"3", "-3", 0, "then volumes on the quads, by Gmsh: pyramids and tetrahedra"},
     Row{"save", "-save", 0, "do not mesh: convert what is there"},
     Row{"part", "-part N", 1, "cut the result into N partitions"},
-    Row{"nt", "-nt N", 1, "threads; the result does not depend on it"},
+    Row{"nt", "-nt N", 1, "threads (default: all of the machine); the result does not depend on it"},
     Row{"v", "-v N", 1, "0: errors only, 1: and the summary, 2 and more: and Gmsh's warnings (default 5)"},
     Row{"surfaces", "--surfaces T,T,...", 1, "convert the surfaces with these tags only"},
     Row{"drop-volumes", "--drop-volumes", 0, "remove volume elements, so that their surfaces may become quads"},
@@ -224,7 +224,6 @@ Request parse(const std::vector<std::string>& arguments) {
   CLI::App app;
   app.set_help_flag();
   bool ignored_flag = false, binary = false, volumes = false;
-  int threads = 0;
   std::vector<std::string> inputs;
   app.add_option("IN", inputs);
   app.add_option("--o", request.output);
@@ -241,7 +240,7 @@ Request parse(const std::vector<std::string>& arguments) {
   auto* min_sj = app.add_option("--min-sj", request.thresholds.min_scaled_jacobian)->check(CLI::Range(-1.0, 1.0));
   auto* irregular = app.add_option("--max-irregular", request.thresholds.max_irregular)->check(CLI::Range(0.0, 1.0));
   auto* no_triangles = app.add_flag("--no-triangles", request.thresholds.no_triangles);
-  app.add_option("--nt", threads)->check(CLI::NonNegativeNumber);
+  app.add_option("--nt", request.threads)->check(CLI::NonNegativeNumber);
   app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
   std::vector<std::string> surfaces;
   app.add_option("--surfaces", surfaces)->delimiter(',')->allow_extra_args(false);

@@ -36,6 +36,7 @@ struct Request {
   std::string background;  ///< -bgm, or empty
   int dimension = 2;       ///< 3: volumes are meshed on the quads
   int partitions = 0;      ///< of -part
+  int threads = 0;         ///< of -nt; 0: as many as the machine has
   bool algorithm_chosen = false, order_chosen = false;
   std::optional<double> msh_version;        ///< of -setnumber Mesh.MshFileVersion
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary

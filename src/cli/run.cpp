@@ -230,6 +230,7 @@ void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others) {
 /// The options of the engine that --smoothing and --set name.
 Options engine_options(const Request& request) {
   Options options;
+  options.threads = request.threads;
   if (request.smoothing == "thesis")
     options.smoothing.method = SmoothingMethod::thesis;
   else if (!request.smoothing.empty() && request.smoothing != "shape_energy")

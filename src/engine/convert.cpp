@@ -4,17 +4,32 @@
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
 #include "engine/surface.hpp"
+#include "parallel/for_each.hpp"
 
 namespace qmorph {
-QuadMesh convert(const Patch& patch, const Options& options) {
+namespace {
+
+QuadMesh convert_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty()) return Collector(patch, {}, {}).finish();
   const Surface surface(patch);
   require_no_overlap(surface.regions, surface.plane);
-  return work_on_regions(surface, options.measure_stages,
-                         [&](std::size_t r, ConversionStats& stats, Snapshots* snapshots) {
-                           return convert_region(surface.regions[r], surface.plane, options, stats, snapshots);
+  return work_on_regions(surface, options,
+                         [&](std::size_t r, const Options& own, ConversionStats& stats, Snapshots* snapshots) {
+                           return convert_region(surface.regions[r], surface.plane, own, stats, snapshots);
                          });
+}
+
+}  // namespace
+
+QuadMesh convert(const Patch& patch, const Options& options) {
+  QuadMesh mesh;
+  parallel::with_threads(options.threads, [&] { mesh = convert_patch(patch, options); });
+  return mesh;
+}
+
+std::vector<Outcome> convert_all(const std::vector<const Patch*>& patches, const Options& options) {
+  return work_on_patches(patches, options, convert_patch);
 }
 
 }  // namespace qmorph

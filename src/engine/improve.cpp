@@ -3,6 +3,7 @@
 #include "engine/overlap.hpp"
 #include "engine/prepare.hpp"
 #include "engine/surface.hpp"
+#include "parallel/for_each.hpp"
 #include "qmorph/convert.hpp"
 
 namespace qmorph {
@@ -39,9 +40,7 @@ kernel::Mesh improve_region(const Start& start, const kernel::Mesh& input, const
   return triangles;
 }
 
-}  // namespace
-
-QuadMesh improve(const Patch& patch, const Options& options) {
+QuadMesh improve_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
@@ -55,10 +54,22 @@ QuadMesh improve(const Patch& patch, const Options& options) {
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options.measure_stages, [&](std::size_t r, ConversionStats& stats, Snapshots* snapshots) {
+      surface, options, [&](std::size_t r, const Options& own, ConversionStats& stats, Snapshots* snapshots) {
         const kernel::Mesh input = snapshots ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
-        return improve_region(starts[r], input, surface.plane, options, stats, snapshots);
+        return improve_region(starts[r], input, surface.plane, own, stats, snapshots);
       });
+}
+
+}  // namespace
+
+QuadMesh improve(const Patch& patch, const Options& options) {
+  QuadMesh mesh;
+  parallel::with_threads(options.threads, [&] { mesh = improve_patch(patch, options); });
+  return mesh;
+}
+
+std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options) {
+  return work_on_patches(patches, options, improve_patch);
 }
 
 }  // namespace qmorph

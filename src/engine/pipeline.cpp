@@ -45,7 +45,7 @@ void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds)
 
 void Pipeline::advance_front(kernel::Mesh& mesh) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
-  front::morph(mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", share); });
+  front::morph(mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", 0.5 * share); });
   stats_.front_quads += count_faces(mesh, 4);
   stats_.leftover_triangles += count_faces(mesh, 3);
   end_stage(Stage::front, mesh, stats_.front_seconds);
@@ -55,18 +55,18 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving);
   end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
-  progress("smoothing", 0);
+  progress("smoothing", 0.5);
   SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
   rough.iterations = std::min(rough.iterations, 2);
   smoothing::smooth(mesh, rough);
   end_stage(Stage::smoothing, mesh, stats_.smoothing_seconds);
-  progress("cleanup", 0);
+  progress("cleanup", 0.55);
   cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing);
   cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing);
   cleanup::clean_up(mesh, options_.smoothing);
   cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing);
   end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
-  progress("smoothing", 0.5);
+  progress("smoothing", 0.8);
   smoothing::smooth(mesh, options_.smoothing);
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
@@ -80,6 +80,7 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   }
   if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
     smoothing::raise_worst_corners(mesh, options_.smoothing);
+  progress("smoothing", 1);
   end_stage(Stage::repair, mesh, stats_.cleanup_seconds);
 }
 

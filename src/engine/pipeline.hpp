@@ -28,6 +28,7 @@ class Pipeline {
   void finish(kernel::Mesh& mesh);
 
  private:
+  /// `share` of all stages together; how they compare was measured.
   void progress(std::string_view stage, double share) const;
   /// Adds the time since the stage before to `seconds`.
   void end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds);

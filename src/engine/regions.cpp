@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/spatial_order.hpp"
+#include "geometry/z_curve.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph {
@@ -76,6 +76,16 @@ void require_manifold(const Patch& patch, const Sides& sides) {
   }
 }
 
+/// What lies close together on the surface shall do so in memory, however the mesher has numbered it: on a million triangles in
+/// random order that halves the time of a conversion.
+std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& plane_points) {
+  std::vector<Vec2> middles;
+  middles.reserve(patch.triangles.size());
+  for (const auto& t : patch.triangles)
+    middles.push_back((plane_points[t[0]] + plane_points[t[1]] + plane_points[t[2]]) / 3);
+  return along_z_curve(middles);
+}
+
 }  // namespace
 
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points) {
@@ -104,7 +114,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
 
   std::vector<Region> regions;
   std::vector<Index> region_of(triangles, kNone), vertex_of(triangles * 3, kNone);
-  for (Index t : spatial_order(patch.triangles, plane_points)) {
+  for (Index t : spatial_order(patch, plane_points)) {
     const Index root = together.root(t);
     if (region_of[root] == kNone) {
       region_of[root] = Index(regions.size());

@@ -36,7 +36,7 @@ struct Region {
   std::size_t boundary_sides = 0;
 };
 
-/// The regions' triangles follow one another as `spatial_order` has them.
+/// The regions' triangles follow one another along a Z-curve.
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
 

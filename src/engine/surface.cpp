@@ -1,6 +1,11 @@
 #include "engine/surface.hpp"
 
+#include <chrono>
+#include <utility>
+
 #include "engine/collector.hpp"
+#include "parallel/for_each.hpp"
+#include "parallel/shared_progress.hpp"
 #include "quality/size_ratio.hpp"
 
 namespace qmorph {
@@ -26,24 +31,64 @@ Surface::Surface(const Patch& surface) : patch(surface), plane(fit_plane(surface
   regions = cut_into_regions(patch, plane_points);
 }
 
-QuadMesh work_on_regions(const Surface& surface, bool measure_stages, const Work& work) {
+QuadMesh work_on_regions(const Surface& surface, const Options& options, const Work& work) {
+  /// What one region becomes.
+  struct Part {
+    kernel::Mesh mesh;
+    ConversionStats stats;
+    Snapshots snapshots;
+  };
+  std::vector<Part> parts(surface.regions.size());
+  std::vector<parallel::Progress> progress;
+  const parallel::SharedProgress shared(options.progress, double(surface.patch.triangles.size()));
+  for (const Region& region : surface.regions) progress.push_back(shared.part(double(region.triangles.size())));
+  parallel::for_each_index(parts.size(), [&](std::size_t r) {
+    Options own = options;
+    own.progress = progress[r];
+    parts[r].mesh = work(r, own, parts[r].stats, options.measure_stages ? &parts[r].snapshots : nullptr);
+  });
+
   ConversionStats stats;
-  std::vector<Snapshots> snapshots(measure_stages ? surface.regions.size() : 0);
-  std::vector<kernel::Mesh> meshes;
-  meshes.reserve(surface.regions.size());
-  for (std::size_t r = 0; r < surface.regions.size(); ++r) {
-    const Region& region = surface.regions[r];
-    ++stats.regions;
-    stats.odd_regions += region.boundary_sides % 2;
-    meshes.push_back(work(r, stats, measure_stages ? &snapshots[r] : nullptr));
-  }
   Collector collector(surface.patch, surface.plane, surface.plane_points);
-  for (std::size_t r = 0; r < meshes.size(); ++r) collector.add(surface.regions[r], meshes[r]);
+  std::vector<Snapshots> snapshots;
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    stats.add(parts[r].stats);
+    ++stats.regions;
+    stats.odd_regions += surface.regions[r].boundary_sides % 2;
+    collector.add(surface.regions[r], parts[r].mesh);
+    snapshots.push_back(std::move(parts[r].snapshots));
+  }
   QuadMesh mesh = collector.finish();
   for (StageFigures& figures : stats.stages) measure_stage(surface, snapshots, figures);
-  if (measure_stages) stats.size_ratios = size_ratios(surface.patch, mesh);
+  if (options.measure_stages) stats.size_ratios = size_ratios(surface.patch, mesh);
   mesh.stats = std::move(stats);
   return mesh;
+}
+
+std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
+                                     const std::function<QuadMesh(const Patch&, const Options&)>& work) {
+  using Clock = std::chrono::steady_clock;
+  const auto weight = [](const Patch& patch) { return double(patch.triangles.size() + 2 * patch.quads.size()); };
+  double total = 0;
+  for (const Patch* patch : patches) total += weight(*patch);
+  const parallel::SharedProgress shared(options.progress, total);
+  std::vector<parallel::Progress> progress;
+  for (const Patch* patch : patches) progress.push_back(shared.part(weight(*patch)));
+
+  std::vector<Outcome> outcomes(patches.size());
+  const auto work_on = [&](std::size_t i) {
+    const Clock::time_point start = Clock::now();
+    Options own = options;
+    own.progress = progress[i];
+    try {
+      outcomes[i].mesh = work(*patches[i], own);
+    } catch (const SurfaceError& error) {
+      outcomes[i].reason = error.what();
+    }
+    outcomes[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  parallel::with_threads(options.threads, [&] { parallel::for_each_index(patches.size(), work_on); });
+  return outcomes;
 }
 
 }  // namespace qmorph

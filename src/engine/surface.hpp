@@ -7,6 +7,7 @@
 
 #include "engine/pipeline.hpp"
 #include "engine/regions.hpp"
+#include "qmorph/convert.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
 
@@ -23,10 +24,16 @@ struct Surface {
   std::vector<Region> regions;
 };
 
-/// Makes the region of this number into quads. `snapshots` may be null.
-using Work = std::function<kernel::Mesh(std::size_t region, ConversionStats& stats, Snapshots* snapshots)>;
+/// Makes the region of this number into quads, with options whose `progress` counts for the region. `snapshots` may be null.
+using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, ConversionStats& stats,
+                                        Snapshots* snapshots)>;
 
-/// Works on all regions and puts the results together, with the figures of each stage if `measure_stages`.
-QuadMesh work_on_regions(const Surface& surface, bool measure_stages, const Work& work);
+/// Works on all regions, side by side, and puts the results together, with the figures of each stage if
+/// `Options::measure_stages`.
+QuadMesh work_on_regions(const Surface& surface, const Options& options, const Work& work);
+
+/// `work` on each patch, side by side.
+std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
+                                     const std::function<QuadMesh(const Patch&, const Options&)>& work);
 
 }  // namespace qmorph

@@ -29,12 +29,13 @@ class Morph {
 
   MorphCounts run(const std::function<void(double)>& progress) {
     start();
+    const std::size_t quads_expected = mesh_.face_slots() / 2 + 1;
     const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
     for (int round = 0; round < kMostRounds; ++round) {
       const std::size_t made_before = made();
       for (Index base; (base = next_base()) != kNone;) {
         if (++steps_ > most_steps) return counts_;
-        if (progress && steps_ % 4096 == 0) progress(double(steps_) / double(most_steps));
+        if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made()) / double(quads_expected)));
         if (!advance(base)) set_aside(base);
         if (check_) check();
       }

@@ -84,6 +84,10 @@ std::vector<PeriodicLink> read_periodic_links(const ModelMesh& mesh, int dim) {
   return links;
 }
 
+std::size_t PeriodicFamily::master_of(std::size_t member) const {
+  return static_cast<std::size_t>(std::find(members.begin(), members.end(), link[member]->master) - members.begin());
+}
+
 std::vector<PeriodicFamily> find_families(const std::vector<PeriodicLink>& links) {
   std::map<int, const PeriodicLink*> link_of;
   std::set<int> masters;

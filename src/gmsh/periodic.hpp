@@ -27,6 +27,8 @@ std::vector<PeriodicLink> read_periodic_links(const ModelMesh& mesh, int dim = 2
 struct PeriodicFamily {
   std::vector<int> members;               ///< tags; a master comes before its slaves
   std::vector<const PeriodicLink*> link;  ///< of each member to its master; null for the first
+  /// Where the master of a member stands.
+  std::size_t master_of(std::size_t member) const;
 };
 std::vector<PeriodicFamily> find_families(const std::vector<PeriodicLink>& links);
 

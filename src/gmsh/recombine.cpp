@@ -101,6 +101,16 @@ void free_quads(SurfaceMesh& surface) {
   for (SurfacePart& part : surface.parts) part.quad_tags.clear();
 }
 
+/// What is worked on as one: a surface, or surfaces that are periodic with one another, of which the first is converted and the
+/// others are its images.
+struct Job {
+  const PeriodicFamily* family = nullptr;
+  std::vector<std::uint32_t> entities;
+  std::vector<ConvertedSurface> converted;
+  std::vector<SurfaceReport> reports;
+  bool is_left_alone = false;  ///< nothing to do, or a reason not to
+};
+
 /// One run over the surfaces of a model.
 class Run {
  public:
@@ -123,10 +133,13 @@ class Run {
 
  private:
   SurfaceReport begin_report(std::uint32_t entity) const;
-  void convert_alone(std::uint32_t entity);
-  void convert_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities);
+  Job begin_alone(std::uint32_t entity);
+  Job begin_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities);
+  void run_engine(std::vector<Job>& jobs);
+  void finish_alone(Job& job);
+  void finish_family(Job& job);
+  void leave_family(Job& job, std::size_t culprit, const std::string& reason) const;
   ConvertedSurface read(std::uint32_t entity);
-  void run_engine(ConvertedSurface& converted);
   void accept(ConvertedSurface converted, SurfaceReport& report);
   void check(const ConvertedSurface& converted) const;
   void measure_quads(std::uint32_t entity, SurfaceReport& report);
@@ -157,6 +170,7 @@ SurfaceReport Run::begin_report(std::uint32_t entity) const {
 }
 
 void Run::visit(const std::vector<std::uint32_t>& entities) {
+  std::vector<Job> jobs;
   std::set<int> done;
   for (std::uint32_t entity : entities) {
     const int tag = model_.mesh.entities[entity].tag;
@@ -165,76 +179,132 @@ void Run::visit(const std::vector<std::uint32_t>& entities) {
       return std::count(candidate.members.begin(), candidate.members.end(), tag);
     });
     if (family == families_.end() || task_ == Task::measure) {
-      convert_alone(entity);
+      jobs.push_back(begin_alone(entity));
     } else {
-      convert_family(*family, entities);
+      jobs.push_back(begin_family(*family, entities));
       done.insert(family->members.begin(), family->members.end());
     }
+  }
+  run_engine(jobs);
+  for (Job& job : jobs) {
+    if (!job.is_left_alone) job.family ? finish_family(job) : finish_alone(job);
+    report_.surfaces.insert(report_.surfaces.end(), job.reports.begin(), job.reports.end());
   }
   std::sort(report_.surfaces.begin(), report_.surfaces.end(),
             [](const SurfaceReport& a, const SurfaceReport& b) { return a.tag < b.tag; });
 }
 
-void Run::convert_alone(std::uint32_t entity) {
+Job Run::begin_alone(std::uint32_t entity) {
   StopWatch watch;
-  SurfaceReport report = begin_report(entity);
+  Job job{.entities = {entity}, .reports = {begin_report(entity)}};
+  SurfaceReport& report = job.reports[0];
   if (task_ == Task::measure || (report.triangles_in == 0 && task_ == Task::convert)) {
     measure_quads(entity, report);
+    job.is_left_alone = true;
   } else {
     try {
-      ConvertedSurface converted = read(entity);
-      run_engine(converted);
-      accept(std::move(converted), report);
+      job.converted.push_back(read(entity));
     } catch (const SurfaceError& error) {
       report.reason = error.what();
+      job.is_left_alone = true;
     }
   }
   report.seconds = watch.lap();
-  report_.surfaces.push_back(std::move(report));
+  return job;
 }
 
-/// One surface is converted and the others are its images; all of them or none.
-void Run::convert_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities) {
+/// All of a family, or none.
+Job Run::begin_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities) {
   StopWatch watch;
-  std::vector<SurfaceReport> reports;
-  std::vector<ConvertedSurface> converted(family.members.size());
-  int at = 0;  // whose fault it is
+  Job job{.family = &family};
+  for (int member : family.members)
+    for (std::uint32_t entity : entities)
+      if (model_.mesh.entities[entity].tag == member) {
+        job.entities.push_back(entity);
+        job.reports.push_back(begin_report(entity));
+      }
+  const std::size_t size = family.members.size();
+  std::size_t at = 0;  // whose fault it is
   try {
-    for (std::size_t i = 0; i < family.members.size(); ++i) {
-      at = family.members[i];
-      const auto entity = std::find_if(entities.begin(), entities.end(),
-                                       [&](std::uint32_t e) { return model_.mesh.entities[e].tag == at; });
-      if (entity == entities.end()) throw SurfaceError("it is not to be converted, or has no elements");
-      reports.push_back(begin_report(*entity));
-      converted[i] = read(*entity);
+    for (; at < size; ++at) {
+      if (at >= job.entities.size() || job.reports[at].tag != family.members[at])
+        throw SurfaceError("it is not to be converted, or has no elements");
+      job.converted.push_back(read(job.entities[at]));
     }
-    const auto master = [&](std::size_t i) -> ConvertedSurface& {
-      const auto found = std::find(family.members.begin(), family.members.end(), family.link[i]->master);
-      return converted[static_cast<std::size_t>(found - family.members.begin())];
-    };
-    for (std::size_t i = family.members.size(); --i > 0;) {
-      at = family.members[i];
-      match_parts(*family.link[i], model_.mesh, master(i).surface, converted[i].surface);
-    }
-    run_engine(converted[0]);
-    for (std::size_t i = 0; i < converted.size(); ++i) {
-      at = family.members[i];
-      if (i > 0) converted[i].results = copy_results(*family.link[i], master(i), converted[i].surface, model_.mesh);
-      check(converted[i]);
-    }
-    for (std::size_t i = 0; i < converted.size(); ++i) accept(std::move(converted[i]), reports[i]);
-    reports[0].seconds = watch.lap();
+    for (at = size; --at > 0;)
+      match_parts(*family.link[at], model_.mesh, job.converted[family.master_of(at)].surface,
+                  job.converted[at].surface);
   } catch (const SurfaceError& error) {
-    reports.clear();
-    for (std::uint32_t entity : entities) {
-      SurfaceReport report = begin_report(entity);
-      if (!std::count(family.members.begin(), family.members.end(), report.tag)) continue;
-      report.reason =
-          report.tag == at ? error.what() : fmt::format("it is periodic with surface {}, which stays as it is", at);
-      reports.push_back(std::move(report));
-    }
+    leave_family(job, at, error.what());
   }
-  report_.surfaces.insert(report_.surfaces.end(), reports.begin(), reports.end());
+  if (!job.reports.empty()) job.reports[0].seconds = watch.lap();
+  return job;
+}
+
+/// The surface `culprit` of the family has a reason to stay as it is, and the others have none but that.
+void Run::leave_family(Job& job, std::size_t culprit, const std::string& reason) const {
+  const int tag = job.family->members[culprit];
+  job.is_left_alone = true;
+  for (std::size_t i = 0; i < job.reports.size(); ++i) {
+    job.reports[i] = begin_report(job.entities[i]);
+    job.reports[i].reason =
+        job.reports[i].tag == tag ? reason : fmt::format("it is periodic with surface {}, which stays as it is", tag);
+  }
+}
+
+/// Surfaces side by side; of a family the first.
+void Run::run_engine(std::vector<Job>& jobs) {
+  StopWatch watch;
+  std::vector<const Patch*> patches;
+  for (const Job& job : jobs)
+    if (!job.is_left_alone)
+      for (const SurfacePart& part : job.converted[0].surface.parts) patches.push_back(&part.patch);
+  const std::vector<Outcome> outcomes =
+      task_ == Task::improve ? improve_all(patches, options_) : convert_all(patches, options_);
+  auto outcome = outcomes.begin();
+  for (Job& job : jobs) {
+    if (job.is_left_alone) continue;
+    std::string reason;
+    for (std::size_t p = 0; p < job.converted[0].surface.parts.size(); ++p, ++outcome) {
+      job.reports[0].seconds += outcome->seconds;
+      if (outcome->mesh) job.converted[0].results.push_back(*outcome->mesh);
+      if (reason.empty()) reason = outcome->reason;
+    }
+    if (reason.empty()) continue;
+    if (job.family)
+      leave_family(job, 0, reason);
+    else
+      job.reports[0].reason = reason, job.is_left_alone = true;
+  }
+  report_.convert_seconds += watch.lap();
+}
+
+void Run::finish_alone(Job& job) {
+  StopWatch watch;
+  try {
+    accept(std::move(job.converted[0]), job.reports[0]);
+  } catch (const SurfaceError& error) {
+    job.reports[0].reason = error.what();
+  }
+  job.reports[0].seconds += watch.lap();
+}
+
+void Run::finish_family(Job& job) {
+  StopWatch watch;
+  const PeriodicFamily& family = *job.family;
+  std::size_t at = 0;
+  try {
+    for (; at < job.converted.size(); ++at) {
+      if (at > 0)
+        job.converted[at].results =
+            copy_results(*family.link[at], job.converted[family.master_of(at)], job.converted[at].surface, model_.mesh);
+      check(job.converted[at]);
+    }
+    for (at = 0; at < job.converted.size(); ++at) accept(std::move(job.converted[at]), job.reports[at]);
+    job.reports[0].seconds += watch.lap();
+  } catch (const SurfaceError& error) {
+    leave_family(job, at, error.what());
+  }
 }
 
 ConvertedSurface Run::read(std::uint32_t entity) {
@@ -251,13 +321,6 @@ ConvertedSurface Run::read(std::uint32_t entity) {
     free_quads(converted.surface);
   report_.read_seconds += watch.lap();
   return converted;
-}
-
-void Run::run_engine(ConvertedSurface& converted) {
-  StopWatch watch;
-  for (const SurfacePart& part : converted.surface.parts)
-    converted.results.push_back(task_ == Task::convert ? convert(part.patch, options_) : improve(part.patch, options_));
-  report_.convert_seconds += watch.lap();
 }
 
 /// \throws SurfaceError

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/z_curve.hpp"
+#include "parallel/for_each.hpp"
 #include "smoothing/node_energy.hpp"
 #include "smoothing/thesis_smoothing.hpp"
 #include "smoothing/untangle.hpp"
@@ -69,45 +71,93 @@ bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
 }
 
 /// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
+///
+/// The nodes are cut into blocks along a Z-curve. Those whose neighbours are all in the same block, or never move, are moved block by
+/// block, side by side; then the others, one after another. Blocks do not depend on the number of threads, and so
+/// nothing does.
 class Passes {
  public:
   Passes(kernel::Mesh& mesh, const SmoothingOptions& options)
       : mesh_(mesh), options_(options), active_(mesh.vertex_slots(), 1) {}
 
   void run(const std::vector<Index>& nodes) {
+    cut_into_blocks(nodes);
     for (int pass = 0; pass < options_.iterations; ++pass) {
-      bool any = false;
-      for (Index v : nodes) {
-        if (!active_[v]) continue;
-        active_[v] = 0;
-        const double moved = relax_node(mesh_, v);
-        if (moved <= options_.move_tolerance) continue;
-        any = true;
-        wake_around(v);
-      }
-      if (!any) break;
+      std::vector<char> moved(blocks_.size());
+      parallel::for_each_index(blocks_.size(), [&](std::size_t b) { moved[b] = relax(blocks_[b]); });
+      const bool any_between = relax(between_);
+      if (!any_between && std::count(moved.begin(), moved.end(), 1) == 0) break;
     }
-    for (int pass = 0; pass < kRepairPasses; ++pass)
-      for (Index v : nodes)
-        if (!mesh_.is_star_above(v, options_.target_quality)) raise_smallest_sine(mesh_, v);
+    for (int pass = 0; pass < kRepairPasses; ++pass) {
+      parallel::for_each_index(blocks_.size(), [&](std::size_t b) { raise_poor(blocks_[b]); });
+      raise_poor(between_);
+    }
   }
 
  private:
   static constexpr int kRepairPasses = 2;
+  static constexpr std::size_t kBlock = 16384;  ///< nodes: about one in twenty is between blocks then
 
-  void wake_around(Index v) {
-    active_[v] = 1;
+  void cut_into_blocks(const std::vector<Index>& nodes) {
+    std::vector<Vec2> points;
+    points.reserve(nodes.size());
+    for (Index v : nodes) points.push_back(mesh_.point(v));
+    const std::vector<Index> order = along_z_curve(points);
+    block_.assign(mesh_.vertex_slots(), kNone);
+    for (std::size_t i = 0; i < order.size(); ++i) block_[nodes[order[i]]] = Index(i / kBlock);
+    blocks_.resize(order.size() / kBlock + 1);
+    for (Index i : order) (is_inside(nodes[i]) ? blocks_[block_[nodes[i]]] : between_).push_back(nodes[i]);
+  }
+
+  bool is_inside(Index v) const {
+    const auto is_foreign = [&](Index u) { return block_[u] != kNone && block_[u] != block_[v]; };
     Index h = mesh_.out(v);
     do {
-      active_[mesh_.target(h)] = 1;
-      if (mesh_.face(h) != kNone) active_[mesh_.target(mesh_.next(h))] = 1;
+      if (is_foreign(mesh_.target(h))) return false;
+      if (mesh_.face(h) != kNone && is_foreign(mesh_.target(mesh_.next(h)))) return false;
+      h = mesh_.rotate_ccw(h);
+    } while (h != mesh_.out(v));
+    return true;
+  }
+
+  /// True if a node moved.
+  bool relax(const std::vector<Index>& nodes) {
+    bool any = false;
+    for (Index v : nodes) {
+      if (!active_[v]) continue;
+      active_[v] = 0;
+      const double moved = relax_node(mesh_, v);
+      if (moved <= options_.move_tolerance) continue;
+      any = true;
+      wake_around(v);
+    }
+    return any;
+  }
+
+  void raise_poor(const std::vector<Index>& nodes) {
+    for (Index v : nodes)
+      if (!mesh_.is_star_above(v, options_.target_quality)) raise_smallest_sine(mesh_, v);
+  }
+
+  void wake_around(Index v) {
+    const auto wake = [&](Index u) {
+      if (block_[u] != kNone) active_[u] = 1;  // a node that never moves has neighbours in several blocks
+    };
+    wake(v);
+    Index h = mesh_.out(v);
+    do {
+      wake(mesh_.target(h));
+      if (mesh_.face(h) != kNone) wake(mesh_.target(mesh_.next(h)));
       h = mesh_.rotate_ccw(h);
     } while (h != mesh_.out(v));
   }
 
   kernel::Mesh& mesh_;
   const SmoothingOptions& options_;
-  std::vector<char> active_;
+  std::vector<char> active_;                ///< by node
+  std::vector<Index> block_;                ///< by node; kNone: never moves
+  std::vector<std::vector<Index>> blocks_;  ///< nodes that depend on their block alone
+  std::vector<Index> between_;              ///< all others
 };
 
 }  // namespace

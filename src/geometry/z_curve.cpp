@@ -1,4 +1,4 @@
-#include "engine/spatial_order.hpp"
+#include "geometry/z_curve.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,24 +16,18 @@ std::uint64_t spread(std::uint64_t x) {
 
 }  // namespace
 
-std::vector<Index> spatial_order(const std::vector<std::array<Index, 3>>& triangles, const std::vector<Vec2>& points) {
+std::vector<Index> along_z_curve(const std::vector<Vec2>& points) {
   constexpr double kCells = 65535;  // each way
-  if (triangles.empty()) return {};
-  const auto middle = [&](const std::array<Index, 3>& t) -> Vec2 {
-    return (points[t[0]] + points[t[1]] + points[t[2]]) / 3;
-  };
-  Vec2 low = middle(triangles[0]), high = low;
-  for (const auto& t : triangles) {
-    const Vec2 p = middle(t);
-    low = low.cwiseMin(p), high = high.cwiseMax(p);
-  }
+  if (points.empty()) return {};
+  Vec2 low = points[0], high = low;
+  for (const Vec2& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const double width = (high - low).maxCoeff(), scale = width > 0 ? kCells / width : 0;
   std::vector<std::uint64_t> keys;  // the place on the curve, then the number
-  keys.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Vec2 cell = (middle(triangles[t]) - low) * scale;
+  keys.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 cell = (points[i] - low) * scale;
     const std::uint64_t place = spread(std::uint64_t(cell.x())) | spread(std::uint64_t(cell.y())) << 1;
-    keys.push_back(place << 32 | t);
+    keys.push_back(place << 32 | i);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<Index> order;
