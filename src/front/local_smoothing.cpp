@@ -31,13 +31,17 @@ struct Surrounding {
 Surrounding look_around(const Step& step, Index v) {
   const Mesh& mesh = step.mesh;
   Surrounding s;
-  Index h = mesh.out(v);
+  const Index start = mesh.out(v);
+  Index h = start;
+  bool was_triangle = mesh.is_triangle(mesh.face(Mesh::twin(h)));  // on the right of h; v is inside
   do {
-    if (mesh.is_quad(mesh.face(h))) ++s.quads;
-    if (step.front.contains(h)) s.outgoing = h, ++s.front_edges;
-    if (step.front.contains(Mesh::twin(h))) s.incoming = Mesh::twin(h), ++s.front_edges;
+    const bool is_triangle = mesh.is_triangle(mesh.face(h));
+    if (!is_triangle) ++s.quads;
+    if (is_triangle && !was_triangle) s.outgoing = h, ++s.front_edges;
+    if (!is_triangle && was_triangle) s.incoming = Mesh::twin(h), ++s.front_edges;
+    was_triangle = is_triangle;
     h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  } while (h != start);
   return s;
 }
 
@@ -56,18 +60,27 @@ Vec2 isoparametric_position(const Mesh& mesh, Index v, int quads) {
 }
 
 /// Length-weighted Laplacian: neighbours far away pull more. [Blacker91]
-Vec2 weighted_laplacian_position(const Mesh& mesh, Index v) {
+Vec2 weighted_laplacian_position(const Vec2& at, std::span<const Vec2> neighbours) {
   Vec2 sum = Vec2::Zero();
   double weights = 0;
-  Index h = mesh.out(v);
-  do {
-    const Vec2 edge = mesh.vector(h);
+  for (const Vec2& p : neighbours) {
+    const Vec2 edge = p - at;
     const double length = edge.norm();
     sum += length * edge;
     weights += length;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return weights > 0 ? Vec2(mesh.point(v) + sum / weights) : mesh.point(v);
+  }
+  return weights > 0 ? Vec2(at + sum / weights) : at;
+}
+
+/// Where the nodes around v are, counter-clockwise.
+std::span<const Vec2> look_at_ring(Step& step, Index v) {
+  step.ring.clear();
+  Index h = step.mesh.out(v);
+  do {
+    step.ring.push_back(step.mesh.point(step.mesh.target(h)));
+    h = step.mesh.rotate_ccw(h);
+  } while (h != step.mesh.out(v));
+  return step.ring;
 }
 
 /// How far the front node v should be from the node behind it.
@@ -133,6 +146,14 @@ Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   return 0.5 * (by_length + by_angle);
 }
 
+/// Moves v, which has triangles around it alone, to `goal` if all of them are good then. Nearly always they are.
+bool move_among_triangles(kernel::Mesh& mesh, Index v, const Vec2& goal, std::span<const Vec2> ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (!is_triangle_above(goal, ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], kWorstSine)) return false;
+  mesh.set_point(v, goal);
+  return true;
+}
+
 /// Moves v towards `goal` as far as every element around stays (or becomes) valid.
 bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal) {
   const Vec2 start = mesh.point(v);
@@ -154,17 +175,18 @@ void smooth_node(Step& step, Index v) {
   kernel::Mesh& mesh = step.mesh;
   if (!mesh.is_free(v)) return;
   const Surrounding s = look_around(step, v);
+  const Vec2 start = mesh.point(v);
   Vec2 goal;
   if (s.front_edges == 0)
-    goal = weighted_laplacian_position(mesh, v);
+    goal = weighted_laplacian_position(start, look_at_ring(step, v));
   else if (s.quads == 2 && s.front_edges == 2)
     goal = row_position(step, v, s);
   else if (s.quads > 0)
     goal = isoparametric_position(mesh, v, s.quads);
   else
     return;
-  const Vec2 start = mesh.point(v);
-  if (!move_guarded(mesh, v, goal)) return;
+  const bool moved = (s.quads == 0 && move_among_triangles(mesh, v, goal, step.ring)) || move_guarded(mesh, v, goal);
+  if (!moved) return;
   if ((mesh.point(v) - start).norm() > kVisibleMove * step.size[v]) step.moved.push_back(v);
 }
 

@@ -22,6 +22,7 @@ struct Step {
 
   // Scratch space, kept to avoid allocations.
   std::vector<Index> scratch{};
+  std::vector<Vec2> ring{};
   std::vector<unsigned> face_mark{};
   unsigned mark = 0;
 };

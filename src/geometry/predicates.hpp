@@ -1,6 +1,8 @@
 #pragma once
 /// Exact signs. A decision that changes the mesh rests on these, never on an epsilon.
 
+#include <algorithm>
+
 #include "geometry/vec2.hpp"
 
 namespace qmorph {
@@ -25,6 +27,14 @@ inline bool is_convex_corner(const Vec2& a, const Vec2& b, const Vec2& c, double
   const Vec2 to_next = c - b, to_previous = a - b;
   const double area = cross(to_next, to_previous);
   return area > 0 && area * area > least_sine * least_sine * to_next.squaredNorm() * to_previous.squaredNorm();
+}
+
+/// Every corner of the triangle is convex and its sine is above `sine`. No roots, no divisions: the smallest angle lies between
+/// the two longest sides.
+inline bool is_triangle_above(const Vec2& a, const Vec2& b, const Vec2& c, double sine) {
+  const Vec2 ab = b - a, bc = c - b, ca = a - c;
+  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm(), area = cross(ab, bc);
+  return area > 0 && area * area > sine * sine * std::max({l1 * l2, l2 * l3, l3 * l1});
 }
 
 }  // namespace qmorph

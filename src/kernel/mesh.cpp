@@ -18,13 +18,7 @@ std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::arra
   return start;
 }
 
-/// Every corner is convex and its squared sine is above `least`. No roots, no divisions.
-bool is_above_in(double least, const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 ab = b - a, bc = c - b, ca = a - c;
-  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm(), area = cross(ab, bc);
-  return area > 0 && area * area > least * std::max({l1 * l2, l2 * l3, l3 * l1});
-}
-
+/// As is_triangle_above() for a quad; `least` is the sine's square.
 bool is_above_in(double least, const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
   const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = cd.squaredNorm(), l4 = da.squaredNorm();
@@ -142,7 +136,7 @@ bool Mesh::is_valid_star(Index v) const {
 bool Mesh::is_above(Index f, double sine) const {
   const Index h = half_edge(f), k = next(h), l = next(k);
   const double least = sine * sine;
-  if (degree(f) == 3) return is_above_in(least, point(origin(h)), point(origin(k)), point(origin(l)));
+  if (degree(f) == 3) return is_triangle_above(point(origin(h)), point(origin(k)), point(origin(l)), sine);
   if (degree(f) == 4) return is_above_in(least, point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)));
   Index e = h;
   do {
