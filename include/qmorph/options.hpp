@@ -93,7 +93,7 @@ struct Options {
   SmoothingOptions smoothing;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
   /// take no more triangles than this; the best result counts. 0: never.
-  std::size_t retry_triangles = 4000;
+  std::size_t retry_triangles = 2000;
   /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
   bool check_each_step = false;
   bool measure_stages = false;  ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage

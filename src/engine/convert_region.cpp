@@ -6,6 +6,7 @@
 #include "engine/fans.hpp"
 #include "engine/prepare.hpp"
 #include "qmorph/error.hpp"
+#include "smoothing/corner_energy.hpp"
 
 namespace qmorph {
 namespace {
@@ -18,13 +19,13 @@ struct Attempt {
   std::string fault;
 };
 
-/// 2 a x b / (a^2 + b^2) with the edges a and b of a corner, at the element's worst corner: 1 for a square. [Knupp01]
+/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1 and 2.2.
 double shape(const kernel::Mesh& mesh, Index f) {
   double least = 1;
   Index h = mesh.half_edge(f);
   for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) {
     const Vec2 a = mesh.vector(h), b = -mesh.vector(mesh.prev(h));
-    least = std::min(least, 2 * cross(a, b) / (a.squaredNorm() + b.squaredNorm()));
+    least = std::min(least, 4 * cross(a, b) / (a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm()));
   }
   return least;
 }
@@ -49,23 +50,27 @@ Worth worth_of(const kernel::Mesh& mesh) {
   return worth;
 }
 
-/// The constants around those that the caller asked for.
-std::vector<FrontOptions> variants_of(const FrontOptions& asked) {
-  std::vector<FrontOptions> variants;
+/// The options that the caller asked for, with other constants of the front.
+std::vector<Options> variants_of(const Options& asked) {
+  std::vector<Options> variants;
   for (double corner : {1.0, 0.9, 1.1})
     for (double side : {1.0, 0.5, 1.5})
       for (double transition : {1.0, 0.7})
         for (double seam : {1.0, 0.5}) {
-          FrontOptions front = asked;
-          front.corner_angle *= corner;
-          front.side_edge_angle *= side;
-          front.transition_ratio *= transition;
-          front.seam_angle *= seam;
-          front.seam_angle_many *= seam;
-          variants.push_back(front);
+          Options options = asked;
+          options.front.corner_angle *= corner;
+          options.front.side_edge_angle *= side;
+          options.front.transition_ratio *= transition;
+          options.front.seam_angle *= seam;
+          options.front.seam_angle_many *= seam;
+          variants.push_back(options);
         }
   variants.erase(variants.begin());  // as asked
   return variants;
+}
+
+bool is_small(const Region& region, const Options& options) {
+  return 2 * region.triangles.size() <= options.retry_triangles;
 }
 
 class RegionConverter {
@@ -74,6 +79,7 @@ class RegionConverter {
       : region_(region),
         plane_(plane),
         options_(options),
+        is_small_(is_small(region, options)),
         before_(before),
         start_(region.points, region.triangles, region.open) {
     for (Index v : region.fixed) start_.set_fixed(v);
@@ -102,14 +108,12 @@ class RegionConverter {
     constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
     const std::size_t size = count_faces(start_, 3);   // fans may have been refined
     std::size_t triangles = size;
-    if (2 * triangles > options_.retry_triangles) return best;
+    if (!is_small_) return best;
     Worth worth = worth_of(best.mesh);
     if (worth.least < kHopeless) return best;
-    for (const FrontOptions& front : variants_of(options_.front)) {
+    for (const Options& options : variants_of(options_)) {
       triangles += size;
       if (triangles > options_.retry_triangles || worth.sum() > kGood) break;
-      Options options = options_;
-      options.front = front;
       Attempt other = attempt(options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = worth_of(other.mesh);
       if (!other.fault.empty() || others.sum() <= worth.sum()) continue;
@@ -121,20 +125,32 @@ class RegionConverter {
 
   Attempt attempt(const Options& options, bool with_front, std::size_t most_faces = std::size_t(-1)) {
     Attempt result{start_, before_, {}, {}};
-    Pipeline pipeline(options, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
+    Options final = options;
+    if (is_small_) final.smoothing.good_quality = std::min(Worth::kGoodEnough, options.smoothing.good_quality);
+    Pipeline pipeline(final, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
     if (with_front) pipeline.advance_front(result.mesh);
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = "too many elements";
       return result;
     }
     pipeline.finish(result.mesh);
+    if (is_small_) raise_corners(result.mesh, options.smoothing);
     result.fault = find_fault(result.mesh, region_, plane_);
     return result;
+  }
+
+  /// Raises more corners than those that are not good enough, if the others do not lose more by it.
+  static void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+    if (smoothing.method != SmoothingMethod::shape_energy) return;
+    kernel::Mesh raised = mesh;
+    smoothing::raise_worst_corners(raised, smoothing);
+    if (worth_of(raised).sum() > worth_of(mesh).sum()) mesh = std::move(raised);
   }
 
   const Region& region_;
   const Plane& plane_;
   const Options& options_;
+  const bool is_small_;  ///< so that a second try is allowed
   const ConversionStats& before_;
   kernel::Mesh start_;  ///< what the front begins with
   kernel::Mesh input_;  ///< as it came, if stages are measured
@@ -143,7 +159,7 @@ class RegionConverter {
 /// The same with an ear set aside: the one triangle that an odd boundary leaves.
 std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
                                            const ConversionStats& before) {
-  if (region.boundary_sides % 2 == 0 || 2 * region.triangles.size() > options.retry_triangles) return {};
+  if (region.boundary_sides % 2 == 0 || !is_small(region, options)) return {};
   const std::optional<Ear> ear = sharpest_ear(region);
   if (!ear) return {};
   try {

@@ -22,9 +22,7 @@ bool cross_properly(const Segment& s, const Segment& t) {
 }
 
 /// The wedge of a convex corner from direction a counter-clockwise to b holds the direction of the x axis.
-bool holds_x_axis(const Vec2& a, const Vec2& b) {
-  return (a.y() < 0 || (a.y() == 0 && a.x() > 0)) && b.y() > 0;
-}
+bool holds_x_axis(const Vec2& a, const Vec2& b) { return (a.y() < 0 || (a.y() == 0 && a.x() > 0)) && b.y() > 0; }
 
 void require_single_cover(const Region& region, const Plane& plane) {
   std::vector<unsigned char> covers(region.points.size(), 0);
@@ -57,8 +55,7 @@ void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane
     std::erase_if(active, [&](const Segment& t) { return t.right() < s.left(); });
     for (const Segment& t : active)
       if (s.low() <= t.high() && t.low() <= s.high() && cross_properly(s, t))
-        throw SurfaceError("boundary or constraint edges cross near " +
-                           describe(plane.to_space(s.a)) +
+        throw SurfaceError("boundary or constraint edges cross near " + describe(plane.to_space(s.a)) +
                            ", so triangles overlap; mesh the surface anew or repair it");
     active.push_back(s);
   }
@@ -69,8 +66,7 @@ void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane
 void require_sound(const Patch& patch) {
   const auto require_node = [&](Index v) {
     if (v >= patch.points.size())
-      throw SurfaceError("an element uses node " + std::to_string(v) + " of " +
-                         std::to_string(patch.points.size()));
+      throw SurfaceError("an element uses node " + std::to_string(v) + " of " + std::to_string(patch.points.size()));
   };
   const auto require_element = [&](const auto& nodes) {
     for (Index v : nodes) require_node(v);

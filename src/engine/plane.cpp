@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 void require_finite(const Patch& patch) {
   for (std::size_t i = 0; i < patch.points.size(); ++i)
     if (!patch.points[i].allFinite())
-      throw SurfaceError("node " + std::to_string(i) + " has the coordinates " +
-                         describe(patch.points[i]) + "; repair the input");
+      throw SurfaceError("node " + std::to_string(i) + " has the coordinates " + describe(patch.points[i]) +
+                         "; repair the input");
 }
 
 Vector3d area_vector(const Patch& patch) {

@@ -13,7 +13,7 @@ namespace {
 using namespace qmorph;
 using namespace qmorph::test;
 
-/// What a try is judged by: smallest scaled Jacobian, where it is under 0.4, + twice the mean shape.
+/// What a try is judged by: smallest scaled Jacobian, where it is under 0.4, + twice the mean metric of the thesis.
 double worth(const QuadMesh& mesh, const Eigen::Vector3d& normal) {
   double least = 1, shapes = 0;
   for (const auto& q : mesh.quads) {
@@ -23,7 +23,7 @@ double worth(const QuadMesh& mesh, const Eigen::Vector3d& normal) {
                             b = mesh.points[q[(i + 3) % 4]] - p;
       const double area = a.cross(b).dot(normal);
       least = std::min(least, area / (a.norm() * b.norm()));
-      shape = std::min(shape, 2 * area / (a.squaredNorm() + b.squaredNorm()));
+      shape = std::min(shape, 4 * area / (a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm()));
     }
     shapes += shape;
   }
