@@ -135,6 +135,7 @@ class RegionConverter {
     }
     pipeline.finish(result.mesh);
     if (is_small_) raise_corners(result.mesh, options.smoothing);
+    if (is_small_ && options.measure_stages) result.snapshots[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
     return result;
   }
