@@ -97,6 +97,8 @@ struct Options {
   /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
   bool check_each_step = false;
   bool measure_stages = false;  ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
+  bool keep_stages = false;         ///< with `measure_stages`: `StageFigures::meshes` is filled
+  bool record_film = false;         ///< `ConversionStats::films` is filled
   /// Threads at most; 0: as many as the machine has. The result does not depend on it.
   int threads = 0;
   /// Called now and then with the name of a stage that is at work and the share of all that is done (0 to 1): one call at a time,

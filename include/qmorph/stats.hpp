@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
+#include "qmorph/film.hpp"
 #include "qmorph/quality.hpp"
 
 namespace qmorph {
@@ -21,6 +23,8 @@ struct StageFigures {
   Stage stage = Stage::input;
   double seconds = 0;          ///< of the stage alone
   QualityAccumulator quality;  ///< of everything converted, kept quads too
+  /// Each surface as it was then. Empty unless `Options::keep_stages`.
+  std::vector<std::shared_ptr<const QuadMesh>> meshes;
 };
 
 /// Counts, times and figures of one conversion, or of several (`add`).
@@ -39,6 +43,8 @@ struct ConversionStats {
   /// For each inner edge of the result, its length over that of the input's edges nearby (the median of the 12 whose
   /// middles are nearest). Empty unless `Options::measure_stages`.
   std::vector<double> size_ratios;
+  /// How the front of each region advanced. Empty unless `Options::record_film`.
+  std::vector<std::shared_ptr<const Film>> films;
 
   /// Adds those of another surface.
   void add(const ConversionStats& other);

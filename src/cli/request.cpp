@@ -53,6 +53,7 @@ constexpr std::array kRows = {
     Row{"elements", "--elements NAME", 1, "for decks: CPS (default), CPE, CAX, S or M3D, with an R behind for reduced"},
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
     Row{"report", "--report FILE", 1, "write a page that shows the mesh before and after, and all figures (HTML)"},
+    Row{"film", "--film FILE", 1, "write a page that plays how the front advanced, step by step (HTML)"},
     Row{"smoothing", "--smoothing NAME", 1, "shape_energy (default), or thesis: constrained Laplacian"},
     Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
     Row{"check", "--check", 0, "judge the mesh IN and write nothing: status 6 if it is not good enough"},
@@ -249,6 +250,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_flag("--cleanup-only", request.cleanup_only);
   app.add_option("--stats", request.stats);
   app.add_option("--report", request.report);
+  app.add_option("--film", request.film);
   app.add_option("--smoothing", request.smoothing);
   app.add_option("--set", request.settings)->allow_extra_args(false);
   app.add_flag("--help", request.help);

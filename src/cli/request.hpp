@@ -16,7 +16,7 @@ struct Thresholds {
 
 /// One call of the command.
 struct Request {
-  std::string input, output, format, stats, report;
+  std::string input, output, format, stats, report, film;
   std::vector<std::string> merged;  ///< further files, merged with the input
   std::string consumer;             ///< of --for
   std::string elements = "CPS";     ///< family of a deck's surface elements

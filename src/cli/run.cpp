@@ -96,7 +96,8 @@ bool is_same_file(const std::string& a, const std::string& b) {
 /// The files that are asked for besides the mesh, by the option that names them.
 std::vector<std::pair<std::string, std::string>> side_files(const Request& request) {
   std::vector<std::pair<std::string, std::string>> files;
-  for (const auto& [option, path] : {std::pair("--stats", &request.stats), std::pair("--report", &request.report)})
+  for (const auto& [option, path] : {std::pair("--stats", &request.stats), std::pair("--report", &request.report),
+                                     std::pair("--film", &request.film)})
     if (!path->empty()) files.emplace_back(option, *path);
   return files;
 }
@@ -306,6 +307,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
   options.measure_stages = !request.stats.empty() || !request.report.empty();
+  options.record_film = !request.film.empty();
   std::optional<EvenReport> even;
   if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
@@ -335,6 +337,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   if (!request.stats.empty()) others.push_back({request.stats, report::stats_json(model, facts)});
   if (!request.report.empty())
     others.push_back({request.report, report::report_page(before, read_scene(), model, facts)});
+  if (!request.film.empty()) others.push_back({request.film, report::film_page(model, facts)});
   commit(written ? &file : nullptr, others);
   print_summary(request, opened, model, facts, err);
   for (const std::string& what : bent) err << "qmorph: " << what << '\n';

@@ -128,7 +128,8 @@ class RegionConverter {
     Options final = options;
     if (is_small_) final.smoothing.good_quality = std::min(Worth::kGoodEnough, options.smoothing.good_quality);
     Pipeline pipeline(final, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
-    if (with_front) pipeline.advance_front(result.mesh);
+    if (with_front)
+      if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film));
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = "too many elements";
       return result;
@@ -146,6 +147,13 @@ class RegionConverter {
     kernel::Mesh raised = mesh;
     smoothing::raise_worst_corners(raised, smoothing);
     if (worth_of(raised).sum() > worth_of(mesh).sum()) mesh = std::move(raised);
+  }
+
+  std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film) const {
+    for (Eigen::Vector3d* axis : {&film->axis_u, &film->axis_v})
+      *axis = axis->x() * plane_.axis_u + axis->y() * plane_.axis_v;
+    film->origin = plane_.to_space(film->origin.head<2>());
+    return film;
   }
 
   const Region& region_;

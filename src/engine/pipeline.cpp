@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 Pipeline::Pipeline(const Options& options, ConversionStats& stats, Snapshots* snapshots, const kernel::Mesh& start)
     : options_(options), stats_(stats), snapshots_(snapshots), start_(Clock::now()) {
   if (options.measure_stages && stats_.stages.empty())
-    for (std::size_t i = 0; i < kStages; ++i) stats_.stages.push_back({Stage(i), 0, {}});
+    for (std::size_t i = 0; i < kStages; ++i) stats_.stages.push_back({Stage(i), 0, {}, {}});
   double nothing = 0;
   end_stage(Stage::input, start, nothing);
 }
@@ -43,12 +43,17 @@ void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds)
   start_ = Clock::now();
 }
 
-void Pipeline::advance_front(kernel::Mesh& mesh) {
+std::shared_ptr<Film> Pipeline::advance_front(kernel::Mesh& mesh) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
-  front::morph(mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", 0.5 * share); });
+  std::optional<front::FilmRecorder> recorder;
+  if (options_.record_film) recorder.emplace(mesh, options_.front.corner_angle);
+  front::morph(
+      mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", 0.5 * share); },
+      recorder ? &*recorder : nullptr);
   stats_.front_quads += count_faces(mesh, 4);
   stats_.leftover_triangles += count_faces(mesh, 3);
   end_stage(Stage::front, mesh, stats_.front_seconds);
+  return recorder ? recorder->finish() : nullptr;
 }
 
 void Pipeline::finish(kernel::Mesh& mesh) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,8 +23,8 @@ class Pipeline {
   /// `start` is the region before all stages; `snapshots` may be null, and then nothing is copied.
   Pipeline(const Options& options, ConversionStats& stats, Snapshots* snapshots, const kernel::Mesh& start);
 
-  /// Triangles to quads, as far as the front comes.
-  void advance_front(kernel::Mesh& mesh);
+  /// Triangles to quads, as far as the front comes. \return how, in the plane, if `Options::record_film`; else null
+  std::shared_ptr<Film> advance_front(kernel::Mesh& mesh);
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 

@@ -18,6 +18,7 @@ void ConversionStats::add(const ConversionStats& other) {
   cleanup_seconds += other.cleanup_seconds;
   smoothing_seconds += other.smoothing_seconds;
   size_ratios.insert(size_ratios.end(), other.size_ratios.begin(), other.size_ratios.end());
+  films.insert(films.end(), other.films.begin(), other.films.end());
   if (stages.empty()) {
     stages = other.stages;
     return;
@@ -25,6 +26,7 @@ void ConversionStats::add(const ConversionStats& other) {
   for (std::size_t i = 0; i < other.stages.size(); ++i) {
     stages[i].seconds += other.stages[i].seconds;
     stages[i].quality.add(other.stages[i].quality);
+    stages[i].meshes.insert(stages[i].meshes.end(), other.stages[i].meshes.begin(), other.stages[i].meshes.end());
   }
 }
 

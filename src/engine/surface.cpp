@@ -12,15 +12,16 @@ namespace qmorph {
 namespace {
 
 /// The figures of one stage: the regions as they were then, put together.
-void measure_stage(const Surface& surface, const std::vector<Snapshots>& regions, StageFigures& figures) {
+void measure_stage(const Surface& surface, const std::vector<Snapshots>& regions, StageFigures& figures, bool keep) {
   Collector collector(surface.patch, surface.plane, surface.plane_points);
   for (std::size_t r = 0; r < regions.size(); ++r) {
     std::size_t last = std::size_t(figures.stage);
     while (!regions[r][last]) --last;  // the input is always there
     collector.add(surface.regions[r], *regions[r][last]);
   }
-  const QuadMesh mesh = collector.finish();
+  QuadMesh mesh = collector.finish();
   figures.quality.add(mesh.points, mesh.triangles, mesh.quads, surface.plane.normal());
+  if (keep) figures.meshes.push_back(std::make_shared<const QuadMesh>(std::move(mesh)));
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ QuadMesh work_on_regions(const Surface& surface, const Options& options, const W
     snapshots.push_back(std::move(parts[r].snapshots));
   }
   QuadMesh mesh = collector.finish();
-  for (StageFigures& figures : stats.stages) measure_stage(surface, snapshots, figures);
+  for (StageFigures& figures : stats.stages) measure_stage(surface, snapshots, figures, options.keep_stages);
   if (options.measure_stages) stats.size_ratios = size_ratios(surface.patch, mesh);
   mesh.stats = std::move(stats);
   return mesh;

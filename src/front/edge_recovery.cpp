@@ -61,6 +61,7 @@ bool crosses(const Mesh& mesh, Index e, const Vec2& from, const Vec2& to) {
 
 Index recover_edge(Step& step, Index h, Index v) {
   kernel::Mesh& mesh = step.mesh;
+  step.notes.swaps = 0;
   const Index start = mesh.origin(h);
   Index found = kNone;
   const Index wedge = entered_wedge(mesh, h, v, found);
@@ -79,6 +80,7 @@ Index recover_edge(Step& step, Index h, Index v) {
       continue;
     }
     mesh.flip(e);
+    ++step.notes.swaps;
     if (crosses(mesh, e, from, to)) crossed.edges.push_back(e);
   }
   return mesh.find(start, v);

@@ -21,6 +21,11 @@ class LoggedColumn {
     recording_ = true;
     log_.clear();
   }
+  /// Indices that the last transaction set. Until the next begin().
+  template <class Visit>
+  void for_logged(const Visit& visit) const {
+    for (const auto& entry : log_) visit(entry.first);
+  }
   void commit() { recording_ = false; }
   void rollback() {
     recording_ = false;

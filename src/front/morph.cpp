@@ -19,13 +19,14 @@ constexpr int kMostRounds = 8;
 
 class Morph {
  public:
-  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check)
+  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check, FilmRecorder* recorder)
       : mesh_(mesh),
         front_(mesh, options),
         colours_(mesh, front_),
         step_{mesh, front_, colours_, options, {}, {}},
         options_(options),
-        check_(check) {}
+        check_(check),
+        recorder_(recorder) {}
 
   MorphCounts run(const std::function<void(double)>& progress) {
     start();
@@ -96,20 +97,22 @@ class Morph {
   /// One base edge: a special case, a small loop or a quad. False if the edge has to be set aside.
   bool advance(Index base) {
     const bool forced = front_.was_forced();
+    base_origin_ = mesh_.origin(base), base_target_ = mesh_.target(base);
     if (!forced)
       for (bool left : {true, false})
         if (special_case(base, left)) return true;
     if (!forced && refine(base)) return true;
-    if (attempt([&] { return close_small_loop(step_, base); })) return ++counts_.small_loops, true;
-    if (attempt([&] { return make_quad(base); })) return ++counts_.quads, true;
+    if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, base); })) return ++counts_.small_loops, true;
+    if (attempt(FilmStep::quad, [&] { return make_quad(base); })) return ++counts_.quads, true;
     return false;
   }
 
   /// Runs a step in a transaction and brings the front up to date if it succeeded.
   template <class Operation>
-  bool attempt(const Operation& operation) {
+  bool attempt(FilmStep kind, const Operation& operation) {
     begin();
     step_.moved.clear();
+    step_.notes = {};
     joins_.clear();
     if (!operation()) {
       rollback();
@@ -117,6 +120,7 @@ class Morph {
     }
     commit();
     for (const auto& [a, b] : joins_) join(a, b);
+    if (recorder_) recorder_->record(kind, base_origin_, base_target_, step_.notes, front_);
     reclassify();
     return true;
   }
@@ -169,18 +173,19 @@ class Morph {
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
     if (angle < seam_angle(mesh_.target(in))) {
       if (transition) {
-        if (attempt([&] { return transition_seam(step_, in, out); })) return ++counts_.transition_seams, true;
-      } else if (attempt([&] { return seam(step_, in, out); })) {
+        if (attempt(FilmStep::transition_seam, [&] { return transition_seam(step_, in, out); }))
+          return ++counts_.transition_seams, true;
+      } else if (attempt(FilmStep::seam, [&] { return seam(step_, in, out); })) {
         return ++counts_.seams, true;
       }
       return false;
     }
     if (!transition || front_.state(base).corners() == 2) return false;
-    return split(l1 > l2 ? in : out, mesh_.target(in));
+    return split(FilmStep::transition_split, l1 > l2 ? in : out, mesh_.target(in));
   }
 
-  bool split(Index longer, Index k) {
-    return attempt([&] { return (forced_ = transition_split(step_, longer, k)) != kNone; }) &&
+  bool split(FilmStep kind, Index longer, Index k) {
+    return attempt(kind, [&] { return (forced_ = transition_split(step_, longer, k)) != kNone; }) &&
            (++counts_.transition_splits, true);
   }
 
@@ -189,7 +194,7 @@ class Morph {
     const Index apex = mesh_.target(mesh_.next(base)), from = mesh_.origin(base), to = mesh_.target(base);
     const double size = std::min({step_.size[from], step_.size[to], step_.size[apex]});
     if (mesh_.length(base) < kTooLong * size) return false;
-    return split(base, step_.size[from] < step_.size[to] ? from : to);
+    return split(FilmStep::refinement, base, step_.size[from] < step_.size[to] ? from : to);
   }
 
   double seam_angle(Index v) const {
@@ -220,6 +225,7 @@ class Morph {
       if (side == kNone) return false;
       note_join(n0, mesh_.target(side));
       left = Mesh::twin(side);
+      step_.notes.left = step_.notes.side;
     }
     if (right == kNone) {
       const Index following = front_.next(base);
@@ -228,7 +234,9 @@ class Morph {
       right = define_side_edge(step_, {base, following, angle - angle / quads_in(angle)}, taken);
       if (right == kNone) return false;
       note_join(n1, mesh_.target(right));
+      step_.notes.right = step_.notes.side;
     }
+    step_.notes.met_front = !joins_.empty();
     const Index n2 = mesh_.origin(left), n3 = mesh_.target(right);
     if (n2 == n3 || n2 == n1 || n3 == n0) return false;
     const Index top = recover_edge(step_, left, n3);  // N2 -> N3
@@ -271,13 +279,15 @@ class Morph {
   std::vector<Index> aside_, touched_;
   std::vector<std::pair<Index, Index>> joins_;
   Index forced_ = kNone;
+  FilmRecorder* recorder_;  ///< or null
+  Index base_origin_ = kNone, base_target_ = kNone;
 };
 
 }  // namespace
 
 MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
-                  const std::function<void(double)>& progress) {
-  return Morph(mesh, options, check_each_step).run(progress);
+                  const std::function<void(double)>& progress, FilmRecorder* recorder) {
+  return Morph(mesh, options, check_each_step, recorder).run(progress);
 }
 
 }  // namespace qmorph::front

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "front/film_recorder.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -16,8 +17,8 @@ struct MorphCounts {
 
 /// Turns triangles into quads from the boundary inwards. Every element of the mesh is valid before and after;
 /// triangles that no step can take are left for triangle elimination. Linear but for the queue.
-/// `progress` is called now and then with the share of triangles done.
+/// `progress` is called now and then with the share of triangles done; `recorder`, which may be null, sees every step.
 MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step = false,
-                  const std::function<void(double)>& progress = {});
+                  const std::function<void(double)>& progress = {}, FilmRecorder* recorder = nullptr);
 
 }  // namespace qmorph::front

@@ -95,6 +95,7 @@ Index without_odd_loop(Step& step, Index side) {
   const Vec2 middle = 0.5 * (step.mesh.point(node) + step.mesh.point(far));
   if (is_too_short(step, node, middle)) return kNone;
   split_triangles(step, side, middle);
+  step.notes.side = SideEdge::halved;
   return side;
 }
 
@@ -103,6 +104,7 @@ Index without_odd_loop(Step& step, Index side) {
 Index define_side_edge(Step& step, const Corner& corner, const Taken& taken) {
   kernel::Mesh& mesh = step.mesh;
   const Fan fan = look_around(step, corner, taken);
+  step.notes.side = SideEdge::existing;
   if (fan.best != kNone && fan.best_angle < step.options.side_edge_angle)
     return without_odd_loop(step, fan.best);
 
@@ -111,10 +113,11 @@ Index define_side_edge(Step& step, const Corner& corner, const Taken& taken) {
                        opposite != taken.half_edge && Mesh::twin(opposite) != taken.half_edge;
   if (is_free) {
     if (const Index side = swap_for_side_edge(step, corner, taken, opposite); side != kNone)
-      return side;
+      return step.notes.side = SideEdge::swapped, side;
     const Index node = mesh.origin(corner.outgoing);
     const Vec2 end = ray_meets_edge(mesh, corner, opposite);
     if (is_too_short(step, node, end)) return kNone;
+    step.notes.side = SideEdge::split;
     return mesh.find(node, split_triangles(step, opposite, end));
   }
   // A front edge is opposite: what is there is taken at any angle, the alternative is worse.

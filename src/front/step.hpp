@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "front/film_recorder.hpp"
 #include "front/front.hpp"
 #include "front/loop_colours.hpp"
 #include "kernel/mesh.hpp"
@@ -25,6 +26,8 @@ struct Step {
   std::vector<Vec2> ring{};
   std::vector<unsigned> face_mark{};
   unsigned mark = 0;
+
+  StepNotes notes{};  ///< for the film
 };
 
 // --- side edges: side_edge.cpp ----------------------------------------------------------------------------

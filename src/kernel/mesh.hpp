@@ -126,6 +126,19 @@ class Mesh {
   void commit();
   void rollback();
   bool in_transaction() const { return recording_; }
+  /// Calls visit(index) for what the last transaction edited, some more than once, some dead by now. Until the next begin().
+  template <class Visit>
+  void for_edited_vertices(const Visit& visit) const {
+    for (const auto& edit : vertex_pool_.old_values) visit(edit.first);
+  }
+  template <class Visit>
+  void for_edited_faces(const Visit& visit) const {
+    for (const auto& edit : face_pool_.old_values) visit(edit.first);
+  }
+  template <class Visit>
+  void for_edited_half_edges(const Visit& visit) const {
+    for (const auto& edit : edge_pool_.old_values) visit(edit.first);
+  }
   /// Whether `commit()` looks at every element that the transaction touched and throws std::logic_error if one
   /// contradicts the invariants. Off at first.
   void check_commits(bool on) { checks_commits_ = on; }

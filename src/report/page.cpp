@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "report/blob.hpp"
+#include "report/page_parts.hpp"
 #include "report/page_sources.hpp"
 #include "report/version.hpp"
 
@@ -97,67 +96,7 @@ Json frame_json(const Frame& frame) {
           {"flat", frame.flat}};
 }
 
-std::string command_line(const std::vector<std::string>& arguments) {
-  std::string line = "qmorph";
-  for (const std::string& word : arguments) line += ' ' + shell_word(word);
-  return line;
-}
-
-std::string escaped_html(const std::string& text) {
-  std::string escaped;
-  for (char c : text) {
-    if (c == '&' || c == '<' || c == '>' || c == '"')
-      escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
-/// JSON that may stand inside a <script>: no `<` that could end it.
-std::string script_json(const Json& json) {
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (char c : text) {
-    if (c == '<')
-      escaped += "\\u003c";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
-/// The page with its facts and numbers in the places that wait for them.
-std::string fill(std::string_view page, const std::string& title, const Json& facts, const Blob& blob) {
-  std::string out;
-  const auto replace_up_to = [&](std::string_view mark, const std::string& text) {
-    const std::size_t at = page.find(mark);
-    out.append(page.substr(0, at)).append(text);
-    page.remove_prefix(at + mark.size());
-  };
-  const std::string numbers = blob.text(), json = script_json(facts);
-  out.reserve(page.size() + numbers.size() + json.size() + title.size());
-  replace_up_to("{{TITLE}}", escaped_html(title));
-  replace_up_to("{{FACTS}}", json);
-  replace_up_to("{{NUMBERS}}", numbers);
-  return out.append(page);
-}
-
-std::string file_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
-
 }  // namespace
-
-std::string shell_word(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string_view("-_=+,./:@%^").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string report_page(const Scene& before, const Scene& after, const ModelReport& model, const RunFacts& facts) {
   const Frame frame = find_frame(after);
@@ -171,7 +110,7 @@ std::string report_page(const Scene& before, const Scene& after, const ModelRepo
   json["meshes"]["before"] = scene_json(before, frame, blob);
   json["meshes"]["after"] = scene_json(after, frame, blob);
   json["stats"] = Json::parse(stats_json(model, facts));
-  return fill(kReportPage, file_name(facts.output) + " – qmorph", json, blob);
+  return fill_page(kReportPage, file_name(facts.output) + " – qmorph", json, blob);
 }
 
 }  // namespace qmorph::report

@@ -13,6 +13,9 @@ namespace qmorph::report {
 /// Cost: linear in the size of the scenes.
 std::string report_page(const Scene& before, const Scene& after, const ModelReport& model, const RunFacts& facts);
 
+/// The page of --film: the fronts of all regions, one after another. Surfaces in several planes lie side by side.
+std::string film_page(const ModelReport& model, const RunFacts& facts);
+
 /// A word of a command line as a shell wants it.
 std::string shell_word(const std::string& word);
 

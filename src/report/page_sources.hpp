@@ -7,5 +7,6 @@ namespace qmorph::report {
 
 /// They wait for {{TITLE}}, {{FACTS}} (JSON) and {{NUMBERS}} (base64), in this order.
 extern const std::string_view kReportPage;
+extern const std::string_view kFilmPage;
 
 }  // namespace qmorph::report

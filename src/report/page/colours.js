@@ -16,9 +16,9 @@ function fromOklch(lightness, chroma, hue) {
   });
 }
 
-const kSteps = 256;
-const scale = Array.from({length: kSteps}, (_, i) => {
-  const t = i / (kSteps - 1);
+const kShades = 256;
+const scale = Array.from({length: kShades}, (_, i) => {
+  const t = i / (kShades - 1);
   return fromOklch(0.27 + 0.69 * t, 0.055 + 0.32 * t * (1 - t), 275 - 175 * t);
 });
 
@@ -26,7 +26,7 @@ export const kInverted = [208, 28, 139];   // magenta: an element that is turned
 export const kUndefined = [150, 150, 150];  // the figure is not defined for the element
 
 // The colour of t in [0, 1] as [r, g, b].
-export const onScale = (t) => scale[Math.min(kSteps - 1, Math.max(0, Math.round(t * (kSteps - 1))))];
+export const onScale = (t) => scale[Math.min(kShades - 1, Math.max(0, Math.round(t * (kShades - 1))))];
 export const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
 // As a pixel of an ImageData seen through a Uint32Array.
 export const pixel = ([r, g, b]) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
