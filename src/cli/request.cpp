@@ -54,6 +54,13 @@ constexpr std::array kRows = {
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
     Row{"report", "--report FILE", 1, "write a page that shows the mesh before and after, and all figures (HTML)"},
     Row{"film", "--film FILE", 1, "write a page that plays how the front advanced, step by step (HTML)"},
+    Row{"svg", "--svg FILE", 1, "write a picture of the mesh"},
+    Row{"pdf", "--pdf FILE", 1, "the same as PDF"},
+    Row{"tikz", "--tikz FILE", 1, "the same for LaTeX (TikZ)"},
+    Row{"stage", "--stage NAME", 1, "for pictures: input, front, elimination, smoothing, cleanup or final (default)"},
+    Row{"colour", "--colour NAME", 1, "for pictures: sj (scaled Jacobian, default), eta, thesis, size or none"},
+    Row{"views", "--views", 0, "write the figures into OUT as data that Gmsh shows, or beside it (.pos)"},
+    Row{"view", "--view", 0, "show OUT in Gmsh's window"},
     Row{"smoothing", "--smoothing NAME", 1, "shape_energy (default), or thesis: constrained Laplacian"},
     Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
     Row{"check", "--check", 0, "judge the mesh IN and write nothing: status 6 if it is not good enough"},
@@ -251,6 +258,13 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--stats", request.stats);
   app.add_option("--report", request.report);
   app.add_option("--film", request.film);
+  app.add_option("--svg", request.svg);
+  app.add_option("--pdf", request.pdf);
+  app.add_option("--tikz", request.tikz);
+  auto* stage = app.add_option("--stage", request.stage);
+  auto* colour = app.add_option("--colour", request.colour);
+  app.add_flag("--views", request.views);
+  app.add_flag("--view", request.view);
   app.add_option("--smoothing", request.smoothing);
   app.add_option("--set", request.settings)->allow_extra_args(false);
   app.add_flag("--help", request.help);
@@ -277,6 +291,8 @@ Request parse(const std::vector<std::string>& arguments) {
     throw UsageError("--all-quad is for the conversion of triangles; --cleanup-only takes curves as they are");
   if (!request.keep_curves.empty() && !request.all_quad)
     throw UsageError("--keep-curves means nothing without --all-quad");
+  if ((*stage || *colour) && !request.wants_picture())
+    throw UsageError("--stage and --colour are for pictures: --svg, --pdf or --tikz");
   if (binary) request.binary = true;
   for (const std::string& tag : surfaces) request.surfaces.push_back(surface_tag(tag));
   return request;

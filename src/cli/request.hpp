@@ -17,6 +17,8 @@ struct Thresholds {
 /// One call of the command.
 struct Request {
   std::string input, output, format, stats, report, film;
+  std::string svg, pdf, tikz;             ///< files for pictures
+  std::string stage = "final", colour = "sj";  ///< of the pictures
   std::vector<std::string> merged;  ///< further files, merged with the input
   std::string consumer;             ///< of --for
   std::string elements = "CPS";     ///< family of a deck's surface elements
@@ -29,6 +31,8 @@ struct Request {
   bool cleanup_only = false;  ///< improve the quads that are there
   bool all_quad = false;      ///< curves may get nodes so that no triangle is left
   std::vector<int> keep_curves;
+  bool views = false;       ///< figures go into the mesh file, or beside it
+  bool view = false;        ///< Gmsh's window in the end
   bool check = false;       ///< judge the mesh, write nothing
   bool no_meshing = false;  ///< -save: what has no elements gets none
   bool drop_volumes = false;
@@ -42,6 +46,8 @@ struct Request {
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary
   std::vector<std::string> option_names;    ///< of Gmsh ("Mesh.Smoothing"), set by -setnumber and -setstring
   std::vector<std::string> gmsh_arguments;  ///< for Gmsh, in their order: the last one of a kind wins
+
+  bool wants_picture() const { return !svg.empty() || !pdf.empty() || !tikz.empty(); }
 };
 
 /// \throws UsageError naming the word that is wrong

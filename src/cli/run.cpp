@@ -22,15 +22,16 @@
 #include "cli/progress.hpp"
 #include "cli/request.hpp"
 #include "cli/scene.hpp"
+#include "cli/side_files.hpp"
 #include "gmsh/consumers.hpp"
 #include "gmsh/meshing.hpp"
 #include "gmsh/open.hpp"
 #include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
 #include "gmsh/staged_file.hpp"
+#include "gmsh/window.hpp"
 #include "gmsh/write.hpp"
 #include "qmorph/gmsh.hpp"
-#include "report/page.hpp"
 #include "report/stats.hpp"
 #include "report/summary.hpp"
 #include "report/version.hpp"
@@ -93,15 +94,6 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return !first.empty() && first == second;
 }
 
-/// The files that are asked for besides the mesh, by the option that names them.
-std::vector<std::pair<std::string, std::string>> side_files(const Request& request) {
-  std::vector<std::pair<std::string, std::string>> files;
-  for (const auto& [option, path] : {std::pair("--stats", &request.stats), std::pair("--report", &request.report),
-                                     std::pair("--film", &request.film)})
-    if (!path->empty()) files.emplace_back(option, *path);
-  return files;
-}
-
 /// Refuses what would fail in the end before hours go into a mesh.
 adapter::OutputPlan check_places(const Request& request) {
   adapter::check_readable(request.input);
@@ -141,7 +133,7 @@ int status_of(const ModelReport& model) {
 bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
                   const ModelReport& model) {
   const bool same_format = opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
-                           !request.msh_version && !request.binary && request.merged.empty();
+                           !request.msh_version && !request.binary && request.merged.empty() && !request.views;
   const bool untouched = model.count(SurfaceOutcome::kConverted) == 0 && request.dimension != 3 &&
                          !request.drop_volumes && !request.order_chosen && request.partitions == 0;
   return same_format && untouched;
@@ -211,11 +203,6 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
   }
   print_outcome(model, facts.output, err);
 }
-
-/// A file besides the mesh, and what is to stand in it.
-struct SideFile {
-  std::string path, text;
-};
 
 /// The mesh and all the other files, or none. \param mesh null if it is in its place already
 void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others) {
@@ -298,6 +285,7 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
   Options options = engine_options(request);
+  set_what_to_keep(request, options);
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   adapter::Session session(request.gmsh_arguments);
@@ -306,11 +294,9 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
 
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   if (watched) options.progress = Progress(err);
-  options.measure_stages = !request.stats.empty() || !request.report.empty();
-  options.record_film = !request.film.empty();
+  const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
   if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
-  const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   const ModelReport model =
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   if (model.surfaces.empty()) {
@@ -333,14 +319,15 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
-  std::vector<SideFile> others;
-  if (!request.stats.empty()) others.push_back({request.stats, report::stats_json(model, facts)});
-  if (!request.report.empty())
-    others.push_back({request.report, report::report_page(before, read_scene(), model, facts)});
-  if (!request.film.empty()) others.push_back({request.film, report::film_page(model, facts)});
+  std::vector<SideFile> others = make_side_files(request, before, model, facts);
+  if (request.views)
+    for (SideFile& views : write_views(request, opened, plan.path, file)) others.push_back(std::move(views));
   commit(written ? &file : nullptr, others);
   print_summary(request, opened, model, facts, err);
   for (const std::string& what : bent) err << "qmorph: " << what << '\n';
+  if (request.view)
+    if (const std::string problem = adapter::show_in_window(plan.path); !problem.empty())
+      err << "qmorph: --view: " << problem << '\n';
   return facts.exit_status;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/drawing.hpp"
 #include "report/page_parts.hpp"
 #include "report/page_sources.hpp"
 #include "report/version.hpp"
@@ -88,6 +89,17 @@ Json scene_json(const Scene& scene, const Frame& frame, Blob& blob) {
 
 Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+/// The colours of the scale, so that pages and pictures have the same.
+Json scale_json() {
+  constexpr int kColours = 256;
+  Json list = Json::array();
+  for (int i = 0; i < kColours; ++i) {
+    const Colour c = on_scale(double(i) / (kColours - 1));
+    list.push_back({c.red, c.green, c.blue});
+  }
+  return list;
+}
+
 Json frame_json(const Frame& frame) {
   return {{"centre", vector_json(frame.centre)},
           {"right", vector_json(frame.right)},
@@ -106,6 +118,7 @@ std::string report_page(const Scene& before, const Scene& after, const ModelRepo
   json["version"] = kVersion;
   json["command"] = command_line(facts.arguments);
   json["frame"] = frame_json(frame);
+  json["scale"] = scale_json();
   json["figure_steps"] = kFigureSteps;
   json["meshes"]["before"] = scene_json(before, frame, blob);
   json["meshes"]["after"] = scene_json(after, frame, blob);

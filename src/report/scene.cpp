@@ -163,6 +163,7 @@ Frame find_frame(const Scene& scene) {
   for (const auto& face : scene.faces)
     for (Index i = 0; i < corners_of(face); ++i)
       if (std::abs(frame.to_frame(scene.points[face[i]]).z()) > kFlat * frame.radius) frame.flat = false;
+  if (!frame.flat) frame.right = Eigen::Vector3d::UnitX(), frame.up = Eigen::Vector3d::UnitZ();
   return frame;
 }
 

@@ -66,7 +66,7 @@ struct Frame {
   Eigen::Vector3d to_frame(const Eigen::Vector3d& p) const;
 };
 
-/// The plane that the surfaces follow most: x and y themselves where that is (nearly) z = constant.
+/// The plane of a flat scene, x and y themselves where that is (nearly) z = constant; x and z for a scene in space.
 Frame find_frame(const Scene& scene);
 
 }  // namespace qmorph::report

@@ -1,32 +1,15 @@
 // Colours that mean something. The scale runs from dark blue by green to pale yellow with lightness growing evenly, so
 // that it reads the same with any colour vision and in grey.
 
-// From OKLCH (lightness, chroma, hue in degrees) to sRGB bytes; see B. Ottosson, "A perceptual color space", 2020.
-function fromOklch(lightness, chroma, hue) {
-  const a = chroma * Math.cos((hue * Math.PI) / 180), b = chroma * Math.sin((hue * Math.PI) / 180);
-  const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
-  const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
-  const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;
-  const linear = [4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-                  -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-                  -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s];
-  return linear.map((v) => {
-    const c = Math.min(Math.max(v, 0), 1);
-    return Math.round(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055));
-  });
-}
-
-const kShades = 256;
-const scale = Array.from({length: kShades}, (_, i) => {
-  const t = i / (kShades - 1);
-  return fromOklch(0.27 + 0.69 * t, 0.055 + 0.32 * t * (1 - t), 275 - 175 * t);
-});
+let scale = [[128, 128, 128]];
+// The program's own, from dark to pale: see report/drawing.hpp.
+export function useScale(colours) { scale = colours; }
 
 export const kInverted = [208, 28, 139];   // magenta: an element that is turned over
 export const kUndefined = [150, 150, 150];  // the figure is not defined for the element
 
 // The colour of t in [0, 1] as [r, g, b].
-export const onScale = (t) => scale[Math.min(kShades - 1, Math.max(0, Math.round(t * (kShades - 1))))];
+export const onScale = (t) => scale[Math.min(scale.length - 1, Math.max(0, Math.round(t * (scale.length - 1))))];
 export const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
 // As a pixel of an ImageData seen through a Uint32Array.
 export const pixel = ([r, g, b]) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;

@@ -3,7 +3,7 @@
 import {byId, element, short} from "./dom.js";
 import {readFacts, readNumbers} from "./numbers.js";
 import {Mesh, joined, kNone} from "./mesh.js";
-import {Colouring, kFigures, kInverted, css, onScale, quantile} from "./colours.js";
+import {Colouring, kFigures, kInverted, css, onScale, quantile, useScale} from "./colours.js";
 import {Camera} from "./camera.js";
 import {CanvasView} from "./canvas_view.js";
 import {ReportPainter, kMarks, groupColour} from "./report_painter.js";
@@ -17,6 +17,7 @@ const kWorst = 10, kBlinkMs = 900;
 
 const facts = readFacts();
 const array = readNumbers();
+useScale(facts.scale);
 const meshes = Object.fromEntries(["before", "after"].map((side) =>
   [side, new Mesh(facts.meshes[side], array, facts.frame, facts.figure_steps)]));
 const camera = new Camera();

@@ -1,0 +1,37 @@
+#pragma once
+/// The files that are written besides the mesh: figures, pages, pictures.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/request.hpp"
+#include "gmsh/open.hpp"
+#include "gmsh/staged_file.hpp"
+#include "qmorph/gmsh.hpp"
+#include "report/scene.hpp"
+#include "report/stats.hpp"
+
+namespace qmorph::cli {
+
+/// Those that are asked for: the option and the path.
+std::vector<std::pair<std::string, std::string>> side_files(const Request& request);
+
+/// Sets what the engine has to keep for them. \throws UsageError for a stage or a colour that there is not
+void set_what_to_keep(const Request& request, Options& options);
+
+/// A file besides the mesh, and what is to stand in it.
+struct SideFile {
+  std::string path, text;
+};
+
+/// All of them but views. `before` is the model before it was changed, if a report is asked for.
+std::vector<SideFile> make_side_files(const Request& request, const report::Scene& before, const ModelReport& model,
+                                      const report::RunFacts& facts);
+
+/// Appends the figures to the mesh where its format has a place for them; else returns the .pos file beside `output`.
+/// \param mesh written, not committed
+std::vector<SideFile> write_views(const Request& request, const adapter::OpenedModel& opened, const std::string& output,
+                                  const adapter::StagedFile& mesh);
+
+}  // namespace qmorph::cli

@@ -1,0 +1,12 @@
+#pragma once
+/// Gmsh's own window.
+
+#include <string>
+
+namespace qmorph::adapter {
+
+/// Opens a mesh file in Gmsh's window and waits until it is closed. The window lives in a process of its own, since its
+/// toolkit ends the process where it finds no display. \return what went wrong, or an empty string
+std::string show_in_window(const std::string& path);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,29 @@
+#pragma once
+/// Meshes as drawings.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "qmorph/gmsh.hpp"
+#include "report/drawing.hpp"
+#include "report/scene.hpp"
+
+namespace qmorph::report {
+
+/// By what elements are coloured. `none`: lines alone.
+enum class PictureColour { scaled_jacobian, eta, thesis_metric, size, none };
+
+/// sj, eta, thesis, size or none.
+std::optional<PictureColour> find_picture_colour(std::string_view name);
+
+/// Draws a scene, its longer side 400 points: faces by colour, their sides, boundary and curves, nodes with other than four
+/// edges (three: orange triangle, five: blue pentagon, others: black disc). A scene in space is seen from the side and
+/// above, without marks. Sizes are coloured by their logarithm between the smallest and the largest.
+Drawing draw(const Scene& scene, PictureColour colour);
+
+/// The scene with its surfaces as they were after a stage. \pre the model was converted with `Options::keep_stages`.
+/// Surfaces that were not converted, or are images of others that are periodic with them, are as in `after`.
+Scene at_stage(const Scene& after, const ModelReport& model, Stage stage);
+
+}  // namespace qmorph::report

@@ -1,0 +1,142 @@
+/// --svg, --pdf, --tikz, --views, --view.
+
+#include <doctest/doctest.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "gmsh/session.hpp"
+#include "gmsh/support.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+
+namespace {
+
+/// Number of times that `part` is in `text`.
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// What Gmsh reads: the views' names and how many elements or nodes each has a value for; and the smallest value of the
+/// first.
+struct ReadViews {
+  std::vector<std::pair<std::string, std::size_t>> counts;
+  double least = 0;
+};
+ReadViews read_views(const std::string& path) {
+  const adapter::Session session;
+  ::gmsh::merge(path);
+  std::vector<int> tags;
+  ::gmsh::view::getTags(tags);
+  ReadViews views;
+  for (int tag : tags) {
+    std::string name, type;
+    ::gmsh::option::getString("View[" + std::to_string(::gmsh::view::getIndex(tag)) + "].Name", name);
+    std::vector<std::size_t> elements;
+    std::vector<std::vector<double>> data;
+    double time = 0;
+    int components = 0;
+    ::gmsh::view::getModelData(tag, 0, type, elements, data, time, components);
+    if (views.counts.empty())
+      views.least = (*std::min_element(data.begin(), data.end(), [](auto& a, auto& b) { return a[0] < b[0]; }))[0];
+    views.counts.emplace_back(name, elements.size());
+  }
+  return views;
+}
+
+}  // namespace
+
+TEST_CASE("pictures: all formats in one call, of the mesh in the end") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--svg", directory / "a.svg", "--pdf",
+                      directory / "a.pdf", "--tikz", directory / "a.tex"})
+              .status == 0);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  const std::size_t quads = element_counts(after, 1).second + element_counts(after, 2).second;
+  const std::string svg = read_file(directory / "a.svg"), tikz = read_file(directory / "a.tex");
+  CHECK(count_of(svg.substr(0, svg.find("fill=\"#101010\"")), "z") >= quads);
+  CHECK(count_of(tikz, "--cycle") >= quads);
+  CHECK(read_file(directory / "a.pdf").rfind("%PDF", 0) == 0);
+}
+
+TEST_CASE("pictures: a stage is as it was then") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  const auto picture = [&](const std::string& stage) {
+    REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--tikz", directory / "a.tex", "--stage",
+                        stage, "--colour", "none"})
+                .status == 0);
+    return read_file(directory / "a.tex");
+  };
+  const Snapshot before = read_snapshot(directory / "in.msh");
+  const std::size_t triangles = element_counts(before, 1).first + element_counts(before, 2).first;
+  const std::string input = picture("input");
+  CHECK(count_of(input, "--cycle") >= triangles);
+  CHECK(count_of(picture("front"), "--cycle") < triangles);
+  CHECK(picture("final") != input);
+}
+
+TEST_CASE("pictures: names that there are not, and words without a picture, are refused before anything is read") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  const std::string in = directory / "in.msh", out = directory / "out.msh", svg = directory / "a.svg";
+  CHECK(run_qmorph({in, "-o", out, "--svg", svg, "--stage", "seam"}).err.find("no stage 'seam'") != std::string::npos);
+  CHECK(run_qmorph({in, "-o", out, "--svg", svg, "--colour", "red"}).err.find("no colouring 'red'") !=
+        std::string::npos);
+  CHECK(run_qmorph({in, "-o", out, "--stage", "front"}).status == 1);
+  CHECK(run_qmorph({in, "-o", out, "--svg", out}).status == 1);
+  CHECK(directory.files() == std::vector<std::string>{"in.msh"});
+}
+
+TEST_CASE("views: Gmsh reads the figures of every element out of the mesh, text or binary, old or new") {
+  for (double version : {4.1, 2.2})
+    for (bool binary : {false, true}) {
+      CAPTURE(version);
+      CAPTURE(binary);
+      const TemporaryDirectory directory;
+      make_msh(directory / "in.msh", version, binary, build_two_squares);
+      const std::string out = directory / "out.msh";
+      REQUIRE(run_qmorph({directory / "in.msh", "-o", out, "--views"}).status == 0);
+      CHECK(directory.files() == std::vector<std::string>{"in.msh", "out.msh"});
+      const Snapshot after = read_snapshot(out);
+      std::size_t elements = 0;
+      for (int surface : {1, 2})
+        elements += element_counts(after, surface).first + element_counts(after, surface).second;
+      const ReadViews views = read_views(out);
+      REQUIRE(views.counts.size() >= 4);
+      CHECK(views.counts[0] == std::pair<std::string, std::size_t>("scaled Jacobian", elements));
+      CHECK(views.counts[3] == std::pair<std::string, std::size_t>("size", elements));
+      CHECK(views.least > 0.3);
+      CHECK(views.least <= 1);
+    }
+}
+
+TEST_CASE("views: formats without a place for them get a file beside the mesh") {
+  for (const std::string format : {"su2", "vtk", "msh1"}) {
+    CAPTURE(format);
+    const TemporaryDirectory directory;
+    make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+    REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / ("out." + format), "--views"}).status == 0);
+    const std::string pos = read_file(directory / "out.pos");
+    CHECK(count_of(pos, "View \"") == 4);
+    CHECK(count_of(pos, "SQ(") > 20);
+  }
+}
+
+TEST_CASE("view: where there is no display it says so, and the mesh is written all the same") {
+  const char* display = std::getenv("DISPLAY");
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  if ((display && *display) || (wayland && *wayland)) return;
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--view"});
+  CHECK(result.status == 0);
+  CHECK(result.err.find("qmorph: --view: there is no display") != std::string::npos);
+  CHECK(directory.files() == std::vector<std::string>{"in.msh", "out.msh"});
+}
