@@ -47,9 +47,13 @@ export function elementCard(mesh, frame, face, colouring) {
   ];
 }
 
-export function summaryLine(mesh) {
+export function countsOf(mesh) {
   let quads = 0;
   for (let f = 0; f < mesh.faceCount; ++f) quads += mesh.cornerCount(f) === 4;
-  const triangles = mesh.faceCount - quads;
+  return {quads, triangles: mesh.faceCount - quads};
+}
+
+export function summaryLine(mesh) {
+  const {quads, triangles} = countsOf(mesh);
   return [[quads, "quad"], [triangles, "triangle"]].filter(([n]) => n).map(([n, what]) => `${whole(n)} ${what}${n === 1 ? "" : "s"}`).join(", ");
 }

@@ -10,7 +10,7 @@ import {ReportPainter, kMarks, groupColour} from "./report_painter.js";
 import {listenToPane} from "./gestures.js";
 import {drawHistogram} from "./histograms.js";
 import {stageTable, surfaceTable, optionList, chips} from "./tables.js";
-import {elementCard, summaryLine} from "./element_card.js";
+import {elementCard, summaryLine, countsOf} from "./element_card.js";
 import {toggleTheme, onTheme} from "./theme.js";
 
 const kWorst = 10, kBlinkMs = 900;
@@ -247,7 +247,7 @@ function onKey(event) {
 function fillPage() {
   const stats = facts.stats;
   byId("subtitle").textContent = `${stats.input} → ${stats.output}`;
-  byId("chips").replaceChildren(...chips(stats));
+  byId("chips").replaceChildren(...chips(stats, countsOf(meshes.after)));
   byId("histograms").replaceChildren(...Object.keys(kFigures).map((key) => drawHistogram(key, colourings[key], meshes.before, meshes.after)));
   byId("stages").replaceChildren(stats.stages.length ? stageTable(stats.stages) : "No surface was converted.");
   byId("surface-table").replaceChildren(surfaceTable(stats.surfaces));

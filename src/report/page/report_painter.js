@@ -53,7 +53,7 @@ export class ReportPainter {
     const px = Math.floor(x), py = Math.floor(y);
     if (px < 0 || py < 0 || px >= view.width || py >= view.height) return false;
     const f = this.ids[py * view.width + px];
-    return f < 0 || depth >= this.mesh.faceDepth[f] - 1.5 * this.mesh.figures.size[f];
+    return f < 0 || depth >= this.mesh.faceDepth[f] - 0.8 * this.mesh.figures.size[f];
   }
 
   paintSides(ctx, view) {
@@ -81,6 +81,10 @@ export class ReportPainter {
     const {mesh, settings} = this;
     const ink = themeColour("curve"), width = Math.min(2.4, Math.max(1.1, 0.2 * this.elementPixels)) * view.ratio;
     if (settings.boundary) {
+      // White on dark panes: with a dark rim it can be seen on pale elements, too.
+      if (isDark())
+        for (const list of [mesh.openEdges, mesh.lines])
+          strokeSegments(ctx, mesh, view, list, "#000000", width + 2 * view.ratio, this.depthTest(list, view));
       strokeSegments(ctx, mesh, view, mesh.openEdges, ink, width, this.depthTest(mesh.openEdges, view));
       strokeSegments(ctx, mesh, view, mesh.lines, ink, width, this.depthTest(mesh.lines, view));
       ctx.fillStyle = ink;

@@ -3,7 +3,8 @@
 import {element, short, percent, whole} from "./dom.js";
 
 function table(head, rows) {
-  const cells = (tag, list) => list.map((text, i) => element(tag, i === 0 ? {scope: tag === "th" ? "col" : "row", className: "name"} : {}, String(text)));
+  const classOf = (i) => (i === 0 ? "name" : head[i] === "outcome" ? "words" : "");
+  const cells = (tag, list) => list.map((text, i) => element(tag, {className: classOf(i)}, String(text)));
   return element("div", {className: "scroller"}, element("table", {}, element("thead", {}, element("tr", {}, ...cells("th", head))),
                  element("tbody", {}, ...rows.map((row) => element("tr", {}, ...cells("td", row))))));
 }
@@ -37,9 +38,10 @@ export function optionList(args) {
   return element("dl", {className: "options"}, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
 }
 
-export function chips(stats) {
+// `quads` and `triangles`: of the whole mesh; the other figures are those of the surfaces that are quads now.
+export function chips(stats, {quads, triangles}) {
   const total = stats.total, sj = total.scaled_jacobian;
-  const list = [[whole(total.quads), total.quads === 1 ? "quad" : "quads"], [whole(total.triangles), total.triangles === 1 ? "triangle" : "triangles"]];
+  const list = [[whole(quads), quads === 1 ? "quad" : "quads"], [whole(triangles), triangles === 1 ? "triangle" : "triangles"]];
   if (total.inverted) list.push([total.inverted, "inverted"]);
   if (sj) list.push([short(sj.min), "smallest scaled Jacobian"], [short(sj.mean), "mean scaled Jacobian"]);
   list.push([percent(total.irregular_share), "irregular nodes"]);
