@@ -289,6 +289,8 @@ Request parse(const std::vector<std::string>& arguments) {
     throw UsageError("--min-sj, --max-irregular and --no-triangles go with --check");
   if (request.all_quad && request.cleanup_only)
     throw UsageError("--all-quad is for the conversion of triangles; --cleanup-only takes curves as they are");
+  if (!request.film.empty() && request.cleanup_only)
+    throw UsageError("--film shows the front, and --cleanup-only has none");
   if (!request.keep_curves.empty() && !request.all_quad)
     throw UsageError("--keep-curves means nothing without --all-quad");
   if ((*stage || *colour) && !request.wants_picture())

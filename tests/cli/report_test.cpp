@@ -60,6 +60,19 @@ TEST_CASE("report: a name cannot end the script that it stands in") {
   CHECK(facts_of(page)["stats"]["input"] == directory / "<script>.msh");
 }
 
+TEST_CASE("film: one page with the steps of every region; none for a mesh without a front") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  const std::string path = directory / "f.html";
+  REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--film", path}).status == 0);
+  const json facts = facts_of(read_file(path));
+  REQUIRE(facts["regions"].size() == 2);
+  for (const json& region : facts["regions"]) CHECK(region["step_count"].get<int>() > 5);
+  CHECK(run_qmorph({directory / "out.msh", "-o", directory / "again.msh", "--film", path}).status == 4);
+  CHECK(facts_of(read_file(path))["regions"].empty());
+  CHECK(run_qmorph({directory / "out.msh", "-o", directory / "again.msh", "--film", path, "--cleanup-only"}).status == 1);
+}
+
 TEST_CASE("report: it does not take another file's place") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);

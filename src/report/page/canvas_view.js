@@ -22,6 +22,10 @@ export class CanvasView {
     this.frames = 0;
     camera.onChange(() => this.moved());
     new ResizeObserver(() => this.invalidate()).observe(canvas);
+    window.addEventListener("beforeprint", () => {  // paper does not wait for the next frame
+      this.cacheView = null;
+      this.frame();
+    });
   }
   get width() { return this.canvas.clientWidth; }
   get height() { return this.canvas.clientHeight; }

@@ -31,8 +31,8 @@ function show() {
   byId("position").textContent = `step ${whole(film.step)} of ${whole(film.stepCount)}`;
   byId("counts").textContent = `${whole(quads)} quads, ${whole(triangles)} triangles left to the front`;
   const start = film.step === 0;
-  byId("what").textContent = start ? "the triangles before the first step" : sentence(film.describe(film.step - 1));
-  byId("where").textContent = start || film.regions.length === 1 ? "" : `surface ${film.describe(film.step - 1).region.surface}`;
+  byId("what").textContent = film.regions.length === 0 ? "nothing was converted, so there was no front" : start ? "the triangles before the first step" : sentence(film.describe(film.step - 1));
+  byId("where").textContent = start || film.regions.length <= 1 ? "" : `surface ${film.describe(film.step - 1).region.surface}`;
   view.invalidate();
 }
 function goTo(step) {
@@ -140,7 +140,7 @@ drawLegend();
 byId("subtitle").textContent = `${facts.input} → ${facts.output}`;
 byId("command").textContent = facts.command;
 byId("version").textContent = `qmorph ${facts.version}`;
-camera.home = film.regions.map((region) => region.box).reduce(joined, [Infinity, Infinity, -Infinity, -Infinity]);
+if (film.regions.length > 0) camera.home = film.regions.map((region) => region.box).reduce(joined);
 // About half a minute for all of it, in round numbers.
 const speeds = [...byId("speed").options].map((option) => Number(option.value));
 speed = speeds.find((s) => s >= film.stepCount / 30) ?? speeds.at(-1);
