@@ -58,8 +58,9 @@ class Browser:
         return value
 
     def rest(self):
-        """Until what has moved is painted in full."""
-        self.run("await new Promise((resolve) => setTimeout(resolve, 450));")
+        """Until what has moved is painted in full: the machine may be busy."""
+        self.run("const q = window.qmorph, views = q ? (q.view ? [q.view] : Object.values(q.panes).map((pane) => pane.view)) : [];"
+                 "do await new Promise((resolve) => setTimeout(resolve, 50)); while (!views.every((view) => view.settled));")
 
     def click(self, x, y):
         """At a place of the window."""

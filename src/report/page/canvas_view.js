@@ -29,6 +29,12 @@ export class CanvasView {
   }
   get width() { return this.canvas.clientWidth; }
   get height() { return this.canvas.clientHeight; }
+  // Is what is seen the picture in full, and nothing on its way?
+  get settled() {
+    if (this.width < 1) return true;
+    const cached = this.cacheView;
+    return !this.requested && Boolean(cached) && !cached.draft && covers(cached, this.viewNow(0)) && performance.now() - this.lastMove > kSettleMs;
+  }
 
   moved() {
     this.lastMove = performance.now();
