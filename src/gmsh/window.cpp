@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <vector>
 
 #include "gmsh/compat.hpp"
 #include "gmsh/session.hpp"
@@ -25,6 +26,10 @@ bool is_set(const char* variable) {
     ::gmsh::open(path);
     set_option("Mesh.SurfaceFaces", 0);
     set_option("Mesh.SurfaceEdges", 1);
+    std::vector<int> views;
+    ::gmsh::view::getTags(views);
+    for (std::size_t i = 1; i < views.size(); ++i)  // one figure at a time
+      set_option("View[" + std::to_string(i) + "].Visible", 0);
     ::gmsh::fltk::run();
   });
   ::_exit(log.errors.empty() ? 0 : kNoWindow);

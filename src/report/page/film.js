@@ -32,7 +32,7 @@ function show() {
   byId("counts").textContent = `${whole(quads)} quads, ${whole(triangles)} triangles left to the front`;
   const start = film.step === 0;
   byId("what").textContent = film.regions.length === 0 ? "nothing was converted, so there was no front" : start ? "the triangles before the first step" : sentence(film.describe(film.step - 1));
-  byId("where").textContent = start || film.regions.length <= 1 ? "" : `surface ${film.describe(film.step - 1).region.surface}`;
+  byId("where").textContent = start || film.regions.length <= 1 ? "" : `surface ${film.describe(film.step - 1).region.surface}:`;
   view.invalidate();
 }
 function goTo(step) {

@@ -3,7 +3,7 @@
 import {byId, element, short} from "./dom.js";
 import {readFacts, readNumbers} from "./numbers.js";
 import {Mesh, joined, kNone} from "./mesh.js";
-import {Colouring, kFigures, kInverted, css, onScale, quantile, useScale} from "./colours.js";
+import {Colouring, kFigures, kInverted, kUndefined, css, onScale, quantile, useScale} from "./colours.js";
 import {Camera} from "./camera.js";
 import {CanvasView} from "./canvas_view.js";
 import {ReportPainter, kMarks, groupColour} from "./report_painter.js";
@@ -77,11 +77,13 @@ function drawLegend() {
     bar.style.background = `linear-gradient(90deg, ${Array.from({length: 17}, (_, i) => css(onScale(i / 16))).join(", ")})`;
     legend.append(element("span", {className: "scale"}, short(colouring.value(0), 2), bar, short(colouring.value(1), 2)),
                   element("span", {title: kFigures[colouring.key].about}, kFigures[colouring.key].name));
-    if (!kFigures[colouring.key].logarithmic) {
+    const entry = (colour, what) => {
       const box = element("span", {className: "swatch"});
-      box.style.background = css(kInverted);
-      legend.append(element("span", {}, box, "0 or less"));
-    }
+      box.style.background = css(colour);
+      legend.append(element("span", {}, box, what));
+    };
+    if (!kFigures[colouring.key].logarithmic) entry(kInverted, "0 or less");
+    if (colouring.key === "eta") entry(kUndefined, "triangles have none");
   }
   if (settings.irregular) for (const [kind, what] of [["3", "3 edges"], ["5", "5 edges"], ["0", "other valence"]]) legend.append(element("span", {}, markIcon(kMarks[kind]), what));
 }
