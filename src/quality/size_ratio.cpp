@@ -1,7 +1,7 @@
 #include "quality/size_ratio.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
 #include "quality/percentile.hpp"
 
@@ -11,6 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kNeighbours = 12;
+/// Ranges of the tree that are this short are looked through one by one: faster than to go further down.
+constexpr std::size_t kLeaf = 8;
 
 struct Edge {
   Index low, high;
@@ -45,10 +47,10 @@ class EdgeTree {
 
   /// Median length of the edges nearest to p.
   double local_length(const Vector3d& p) {
-    found_.clear();
+    found_count_ = 0;
     search(0, nodes_.size(), p);
     lengths_.clear();
-    for (const auto& [distance, i] : found_) lengths_.push_back(nodes_[i].length);
+    for (std::size_t i = 0; i < found_count_; ++i) lengths_.push_back(found_[i].length);
     return percentile(lengths_, 50);
   }
 
@@ -60,7 +62,7 @@ class EdgeTree {
   };
 
   void build(std::size_t first, std::size_t last) {
-    if (last - first < 2) return;
+    if (last - first <= kLeaf) return;
     Vector3d low = nodes_[first].middle, high = low;
     for (std::size_t i = first; i < last; ++i)
       low = low.cwiseMin(nodes_[i].middle), high = high.cwiseMax(nodes_[i].middle);
@@ -75,26 +77,36 @@ class EdgeTree {
     build(root + 1, last);
   }
 
-  /// Keeps the nearest in a heap with the farthest of them on top.
   void search(std::size_t first, std::size_t last, const Vector3d& p) {
-    if (first >= last) return;
+    if (last - first <= kLeaf) {
+      for (std::size_t i = first; i < last; ++i) consider(nodes_[i], p);
+      return;
+    }
     const std::size_t root = (first + last) / 2;
     const Node& node = nodes_[root];
-    found_.emplace_back((node.middle - p).squaredNorm(), root);
-    std::push_heap(found_.begin(), found_.end());
-    if (found_.size() > kNeighbours) {
-      std::pop_heap(found_.begin(), found_.end());
-      found_.pop_back();
-    }
+    consider(node, p);
     const double beyond = p[node.axis] - node.middle[node.axis];
     const bool left = beyond < 0;
     left ? search(first, root, p) : search(root + 1, last, p);
-    if (found_.size() < kNeighbours || beyond * beyond <= found_.front().first)
+    if (found_count_ < kNeighbours || beyond * beyond <= found_[kNeighbours - 1].distance)
       left ? search(root + 1, last, p) : search(first, root, p);
   }
 
+  /// Keeps the nearest in order.
+  void consider(const Node& node, const Vector3d& p) {
+    const double distance = (node.middle - p).squaredNorm();
+    if (found_count_ == kNeighbours && distance >= found_[kNeighbours - 1].distance) return;
+    std::size_t at = found_count_ < kNeighbours ? found_count_++ : kNeighbours - 1;
+    for (; at > 0 && distance < found_[at - 1].distance; --at) found_[at] = found_[at - 1];
+    found_[at] = {distance, node.length};
+  }
+
   std::vector<Node> nodes_;
-  std::vector<std::pair<double, std::size_t>> found_;
+  struct Found {
+    double distance, length;
+  };
+  std::array<Found, kNeighbours> found_;
+  std::size_t found_count_ = 0;
   std::vector<double> lengths_;
 };
 
