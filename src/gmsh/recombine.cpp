@@ -105,9 +105,9 @@ void free_quads(SurfaceMesh& surface) {
 /// others are its images.
 struct Job {
   const PeriodicFamily* family = nullptr;
-  std::vector<std::uint32_t> entities;
-  std::vector<ConvertedSurface> converted;
-  std::vector<SurfaceReport> reports;
+  std::vector<std::uint32_t> entities{};
+  std::vector<ConvertedSurface> converted{};
+  std::vector<SurfaceReport> reports{};
   bool is_left_alone = false;  ///< nothing to do, or a reason not to
 };
 
