@@ -3,26 +3,30 @@
 
 #include <chrono>
 #include <ostream>
+#include <string>
 #include <string_view>
 
 namespace qmorph::cli {
 
-/// For `Options::progress`. Quiet in the first second: most runs are over by then.
+/// "  [#######             ]  35 %  cleanup, 12 s left". Without the time while nothing is done yet.
+std::string progress_line(std::string_view stage, double share, double seconds_so_far);
+
+/// For `Options::progress`. Quiet in the first second: most runs are over by then. Wipes its line when it goes.
 class Progress {
  public:
-  explicit Progress(std::ostream& terminal) : terminal_(&terminal) {}
+  explicit Progress(std::ostream& terminal) : terminal_(terminal) {}
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
-  void operator()(std::string_view stage, double share) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next_) return;
-    next_ = now + std::chrono::milliseconds(250);
-    // Back to the start of the line at once: whatever comes next writes over it.
-    *terminal_ << "  " << stage << ' ' << static_cast<int>(100 * share) << " %    \r" << std::flush;
-  }
+  void operator()(std::string_view stage, double share);
 
  private:
-  std::ostream* terminal_;
-  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  using Clock = std::chrono::steady_clock;
+
+  std::ostream& terminal_;
+  Clock::time_point start_ = Clock::now(), next_ = start_ + std::chrono::seconds(1);
+  std::size_t width_ = 0;  ///< of what stands on the line
 };
 
 }  // namespace qmorph::cli

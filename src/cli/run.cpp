@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -293,12 +294,14 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   adapter::OpenedModel opened = open(request, err);
 
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
-  if (watched) options.progress = Progress(err);
+  std::optional<Progress> bar;
+  if (watched) options.progress = std::ref(bar.emplace(err));
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
   if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
   const ModelReport model =
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
+  bar.reset();
   if (model.surfaces.empty()) {
     err << "qmorph: nothing to convert: " << request.input << " has no surface with elements\n";
     return kNothingToConvert;

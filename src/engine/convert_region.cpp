@@ -104,7 +104,7 @@ class RegionConverter {
  private:
   Attempt best_of_variants(Attempt best) {
     // Under the lower bound it is the boundary that is poor, and no try changes that.
-    constexpr double kGood = 2.2, kHopeless = 0.05;
+    constexpr double kGood = 2.2, kHopeless = 0.1;
     constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
     const std::size_t size = count_faces(start_, 3);   // fans may have been refined
     std::size_t triangles = size;

@@ -112,7 +112,7 @@ double guarded_sine_around(const kernel::Mesh& mesh, Index v) {
 
 bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
   if (!mesh.is_free(v)) return false;
-  constexpr int kDirections = 8, kShrinkings = 6, kMostRounds = 200;
+  constexpr int kDirections = 8, kShrinkings = 6, kMostRounds = 40;
   constexpr double kFirstStep = 0.25, kLeastGain = 1e-6;
   double shortest = std::numeric_limits<double>::infinity();
   Index h = mesh.out(v);
