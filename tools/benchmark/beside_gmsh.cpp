@@ -1,0 +1,197 @@
+#include "beside_gmsh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+
+#include "gmsh_tasks.hpp"
+
+namespace benchmark {
+namespace {
+
+constexpr double kLargestToMesh = 2e6;  // triangles: Gmsh's mesher needs minutes for a million
+constexpr double kRepeatBelow = 2;      // seconds
+constexpr int kRepeats = 3;
+
+/// A folder for the files that go from process to process, as long as it lives.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "qmorph-bench-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder can be made");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The fastest of a few, if they are short: other programs on the machine only ever add to the time.
+Ran fastest(const std::function<Figures()>& task, double limit) {
+  Ran best = run_apart(task, limit);
+  for (int i = 1; i < kRepeats && best.end == End::finished && best.figures.work < kRepeatBelow; ++i)
+    if (const Ran again = run_apart(task, limit); again.end == End::finished && again.figures.work < best.figures.work)
+      best = again;
+  return best;
+}
+
+bool same_bytes(const std::string& a, const std::string& b) {
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
+}
+
+Comparison compare(double size, Kind kind, double limit, const Folder& folder, bool try_blossom) {
+  const std::string in = folder.file("triangles.msh"), quads = folder.file("quads.msh");
+  const std::string one = folder.file("one.msh"), two = folder.file("two.msh");
+  for (const std::string& file : {in, quads, one, two}) std::filesystem::remove(file);  // those of the size before
+  Comparison result;
+  result.kind = kind;
+  const Ran made = run_apart(
+      [&] {
+        const Triangulation mesh = make_triangulation(size, kind);
+        Figures figures = write_triangles(mesh, in);
+        figures.triangles = mesh.triangle_count();
+        return figures;
+      },
+      limit);
+  if (made.end != End::finished) throw std::runtime_error("the triangles could not be made");
+  result.triangles = made.figures.triangles;
+  if (kind == Kind::even && size <= kLargestToMesh)
+    result.meshing = run_apart([&] { return gmsh_meshes(size); }, limit);
+  result.simple = fastest([&] { return gmsh_recombines(in, quads, 0); }, limit);
+  if (try_blossom) result.blossom = fastest([&] { return gmsh_recombines(in, quads, 1); }, limit);
+  result.one_thread = fastest([&] { return qmorph_recombines(in, one, 1); }, limit);
+  result.two_threads = fastest([&] { return qmorph_recombines(in, two, 2); }, limit);
+  result.same_bytes = same_bytes(one, two);
+  return result;
+}
+
+/// "1.23 s, 4.5 µs, 67 MB"
+std::string cell(const Ran& ran, std::size_t triangles, double limit) {
+  switch (ran.end) {
+    case End::finished:
+      break;
+    case End::over_limit:
+      return fmt::format("more than {:.0f} s", limit);
+    case End::failed:
+      return "failed";
+    case End::not_tried:
+      return "-";
+  }
+  const double seconds = ran.figures.work;
+  return fmt::format("{:.{}f} s, {:.2f} µs, {:.0f} MB", seconds, seconds < 10 ? 2 : 1,
+                     1e6 * seconds / double(triangles), 1e-6 * ran.peak_bytes);
+}
+
+void print_rivals(const std::vector<Comparison>& comparisons, double limit) {
+  fmt::print(
+      "Seconds from triangles to quads in Gmsh's model, microseconds for each triangle, and memory of the process at "
+      "the peak "
+      "(-: not tried, as it would take more than {:.0f} s even at the cost for each triangle of the size before):\n\n"
+      "| surfaces | triangles | Gmsh, simple | Gmsh, Blossom | qmorph, 1 thread | qmorph, 2 threads |\n"
+      "|---|---|---|---|---|---|\n",
+      limit);
+  for (const Comparison& c : comparisons)
+    fmt::print("| {} | {} | {} | {} | {} | {} |\n", name_of(c.kind), c.triangles, cell(c.simple, c.triangles, limit),
+               cell(c.blossom, c.triangles, limit), cell(c.one_thread, c.triangles, limit),
+               cell(c.two_threads, c.triangles, limit));
+  std::string meshing;
+  for (const Comparison& c : comparisons)
+    if (c.meshing.end == End::finished)
+      meshing += fmt::format("{}{:.1f} s for {}", meshing.empty() ? "" : ", ", c.meshing.figures.work,
+                             c.meshing.figures.triangles);
+    else if (c.meshing.end == End::over_limit)
+      meshing += fmt::format("{}more than {:.0f} s for {}", meshing.empty() ? "" : ", ", limit, c.triangles);
+  if (!meshing.empty())
+    fmt::print("\nTo make triangles in such a square with holes took Gmsh (algorithm 6) {}.\n", meshing);
+}
+
+void print_stages(const std::vector<Comparison>& comparisons) {
+  fmt::print(
+      "\nqmorph's seconds by stages, on one thread, between Gmsh's own for opening and writing the files (MSH 4.1, "
+      "binary); "
+      "I/O: their share of all; same: one thread and two wrote the same bytes:\n\n"
+      "| surfaces | triangles | open | read | front | cleanup | smoothing | rest | check | replace | write | I/O |"
+      " conversion: 1 → 2 threads | speed-up | same |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Comparison& c : comparisons) {
+    if (c.one_thread.end != End::finished) continue;
+    const Figures& f = c.one_thread.figures;
+    std::string row = fmt::format("| {} | {} |", name_of(c.kind), c.triangles);
+    for (const double seconds :
+         {f.open, f.read, f.front, f.cleanup, f.smoothing, std::max(0.0, f.convert - f.front - f.cleanup - f.smoothing),
+          f.check, f.replace, f.write})
+      row += fmt::format(" {:.2f} |", seconds);
+    row += fmt::format(" {:.0f} % |", 100 * (f.open + f.write) / (f.open + f.work + f.write));
+    if (c.two_threads.end == End::finished)
+      row += fmt::format(" {:.2f} → {:.2f} | {:.2f} | {} |", f.convert, c.two_threads.figures.convert,
+                         f.convert / c.two_threads.figures.convert, c.same_bytes ? "yes" : "**no**");
+    else
+      row += " - | - | - |";
+    fmt::print("{}\n", row);
+  }
+}
+
+/// False if Gmsh's Blossom would be over the limit even at the cost per triangle of the size before.
+bool worth_trying(const Comparison& before, double size, double limit) {
+  if (before.blossom.end != End::finished) return false;
+  return before.blossom.figures.work / double(before.triangles) * size < limit;
+}
+
+/// On a quiet machine, one thread takes as many seconds as its processor's.
+void print_disturbance(const std::vector<Comparison>& comparisons) {
+  constexpr double kQuiet = 0.9, kShort = 0.1;  // share; seconds
+  double work = 0, cpu = 0;
+  for (const Comparison& c : comparisons)
+    for (const Ran* ran : {&c.simple, &c.blossom, &c.one_thread})
+      if (ran->end == End::finished && ran->figures.work > kShort) work += ran->figures.work, cpu += ran->figures.cpu;
+  if (cpu < kQuiet * work)
+    fmt::print(
+        "\nOther programs ran meanwhile: the processor spent {:.0f} % of the seconds of one thread on it, and two "
+        "threads "
+        "had less than two processors.\n",
+        100 * cpu / work);
+}
+
+void log(const Comparison& c) {
+  const Figures &one = c.one_thread.figures, &two = c.two_threads.figures;
+  fmt::print(stderr,
+             "bench: {}, {} triangles: 1 thread {:.2f} s of the processor in {:.2f} s; 2 threads {:.2f} in {:.2f}\n",
+             name_of(c.kind), c.triangles, one.cpu, one.work, two.cpu, two.work);
+}
+
+}  // namespace
+
+std::vector<Comparison> compare_with_gmsh(const std::vector<double>& sizes, const std::vector<Kind>& kinds,
+                                          double limit) {
+  const Folder folder;
+  std::vector<Comparison> comparisons;
+  for (const Kind kind : kinds) {
+    for (const double size : sizes) {
+      const bool first = comparisons.empty() || comparisons.back().kind != kind;
+      const bool try_blossom = first || worth_trying(comparisons.back(), size, limit);
+      comparisons.push_back(compare(size, kind, limit, folder, try_blossom));
+      log(comparisons.back());
+    }
+  }
+  print_rivals(comparisons, limit);
+  print_stages(comparisons);
+  print_disturbance(comparisons);
+  return comparisons;
+}
+
+}  // namespace benchmark
