@@ -1,12 +1,11 @@
 #include "apart.hpp"
 
-#include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -40,23 +39,21 @@ Ran run_apart(const std::function<Figures()>& task, double limit) {
   if (child < 0) return {End::failed, {}, 0};
   if (child == 0) {
     close(ends[0]);
+    const rlim_t seconds = rlim_t(std::ceil(limit));
+    const rlimit processor{seconds, seconds + 1};
+    setrlimit(RLIMIT_CPU, &processor);
     be_child(task, ends[1]);
   }
   close(ends[1]);
 
   Ran ran;
-  pollfd waiting{ends[0], POLLIN, 0};
-  if (poll(&waiting, 1, int(std::min(1e9, 1e3 * limit))) == 0) {
-    ran.end = End::over_limit;
-    kill(child, SIGKILL);
-  } else {
-    const bool whole = read(ends[0], &ran.figures, sizeof ran.figures) == ssize_t(sizeof ran.figures);
-    ran.end = whole ? End::finished : End::failed;
-  }
+  const bool whole = read(ends[0], &ran.figures, sizeof ran.figures) == ssize_t(sizeof ran.figures);
   close(ends[0]);
   rusage usage{};
   int status = 0;
   wait4(child, &status, 0, &usage);
+  const bool over_limit = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
+  ran.end = whole ? End::finished : over_limit ? End::over_limit : End::failed;
   ran.peak_bytes = 1024 * double(usage.ru_maxrss);
   return ran;
 }

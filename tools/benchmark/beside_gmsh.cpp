@@ -80,68 +80,72 @@ Comparison compare(double size, Kind kind, double limit, const Folder& folder, b
   return result;
 }
 
-/// "1.23 s, 4.5 µs, 67 MB"
-std::string cell(const Ran& ran, std::size_t triangles, double limit) {
-  switch (ran.end) {
-    case End::finished:
-      break;
-    case End::over_limit:
-      return fmt::format("more than {:.0f} s", limit);
-    case End::failed:
-      return "failed";
-    case End::not_tried:
-      return "-";
-  }
-  const double seconds = ran.figures.work;
-  return fmt::format("{:.{}f} s, {:.2f} µs, {:.0f} MB", seconds, seconds < 10 ? 2 : 1,
-                     1e6 * seconds / double(triangles), 1e-6 * ran.peak_bytes);
+/// "1.23 s, 4.56 µs, 78 MB"
+std::string cell(const Comparison& c, Ran Comparison::*which, double limit) {
+  const Ran& ran = c.*which;
+  if (ran.end == End::over_limit) return fmt::format("more than {:.0f} s", limit);
+  if (ran.end == End::not_tried) return "-";
+  if (ran.end == End::failed) return "failed";
+  const double time = seconds(c, which);
+  return fmt::format("{:.{}f} s, {:.2f} µs, {:.0f} MB", time, time < 10 ? 2 : 1, 1e6 * time / double(c.triangles),
+                     1e-6 * ran.peak_bytes);
 }
 
+constexpr const char* kRivals =
+    R"(From triangles to quads in Gmsh's model: seconds (of the processor; of the clock for 2 threads), microseconds for each
+triangle, and memory of the process at the peak (-: not tried, as it would take more than {:.0f} s even at the cost for each
+triangle of the size before):
+
+| surfaces | triangles | Gmsh, simple | Gmsh, Blossom | qmorph, 1 thread | qmorph, 2 threads |
+|---|---|---|---|---|---|
+)";
+
 void print_rivals(const std::vector<Comparison>& comparisons, double limit) {
-  fmt::print(
-      "Seconds from triangles to quads in Gmsh's model, microseconds for each triangle, and memory of the process at "
-      "the peak "
-      "(-: not tried, as it would take more than {:.0f} s even at the cost for each triangle of the size before):\n\n"
-      "| surfaces | triangles | Gmsh, simple | Gmsh, Blossom | qmorph, 1 thread | qmorph, 2 threads |\n"
-      "|---|---|---|---|---|---|\n",
-      limit);
-  for (const Comparison& c : comparisons)
-    fmt::print("| {} | {} | {} | {} | {} | {} |\n", name_of(c.kind), c.triangles, cell(c.simple, c.triangles, limit),
-               cell(c.blossom, c.triangles, limit), cell(c.one_thread, c.triangles, limit),
-               cell(c.two_threads, c.triangles, limit));
+  fmt::print(kRivals, limit);
   std::string meshing;
-  for (const Comparison& c : comparisons)
-    if (c.meshing.end == End::finished)
-      meshing += fmt::format("{}{:.1f} s for {}", meshing.empty() ? "" : ", ", c.meshing.figures.work,
-                             c.meshing.figures.triangles);
-    else if (c.meshing.end == End::over_limit)
-      meshing += fmt::format("{}more than {:.0f} s for {}", meshing.empty() ? "" : ", ", limit, c.triangles);
+  for (const Comparison& c : comparisons) {
+    fmt::print("| {} | {} |", name_of(c.kind), c.triangles);
+    for (const auto which :
+         {&Comparison::simple, &Comparison::blossom, &Comparison::one_thread, &Comparison::two_threads})
+      fmt::print(" {} |", cell(c, which, limit));
+    fmt::print("\n");
+    if (c.meshing.end == End::not_tried) continue;
+    const bool finished = c.meshing.end == End::finished;
+    meshing +=
+        fmt::format("{}{} for {}", meshing.empty() ? "" : ", ",
+                    finished ? fmt::format("{:.2f} s", c.meshing.figures.cpu) : cell(c, &Comparison::meshing, limit),
+                    finished ? c.meshing.figures.triangles : c.triangles);
+  }
   if (!meshing.empty())
     fmt::print("\nTo make triangles in such a square with holes took Gmsh (algorithm 6) {}.\n", meshing);
 }
 
+constexpr const char* kStages = R"(
+qmorph's seconds of the processor by stages, on one thread, between Gmsh's own for opening and writing the files (MSH 4.1,
+binary). I/O: Gmsh's share of all; speed-up: of the conversion alone (front to rest), seconds of the clock on one thread and
+on two; same: both wrote the same bytes:
+
+| surfaces | triangles | open | read | front | cleanup | smoothing | rest | check | replace | write | I/O | conversion | speed-up | same |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
+)";
+
 void print_stages(const std::vector<Comparison>& comparisons) {
-  fmt::print(
-      "\nqmorph's seconds by stages, on one thread, between Gmsh's own for opening and writing the files (MSH 4.1, "
-      "binary); "
-      "I/O: their share of all; same: one thread and two wrote the same bytes:\n\n"
-      "| surfaces | triangles | open | read | front | cleanup | smoothing | rest | check | replace | write | I/O |"
-      " conversion: 1 → 2 threads | speed-up | same |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("{}", kStages);
   for (const Comparison& c : comparisons) {
     if (c.one_thread.end != End::finished) continue;
     const Figures& f = c.one_thread.figures;
-    std::string row = fmt::format("| {} | {} |", name_of(c.kind), c.triangles);
-    for (const double seconds :
-         {f.open, f.read, f.front, f.cleanup, f.smoothing, std::max(0.0, f.convert - f.front - f.cleanup - f.smoothing),
-          f.check, f.replace, f.write})
-      row += fmt::format(" {:.2f} |", seconds);
-    row += fmt::format(" {:.0f} % |", 100 * (f.open + f.write) / (f.open + f.work + f.write));
+    const double own = f.cpu / f.work;  // share of the clock's seconds that the processor was ours
+    const double rest = std::max(0.0, f.convert - f.front - f.cleanup - f.smoothing);
+    std::string row = fmt::format("| {} | {} | {:.2f} |", name_of(c.kind), c.triangles, f.open);
+    for (const double time : {f.read, f.front, f.cleanup, f.smoothing, rest, f.check, f.replace})
+      row += fmt::format(" {:.2f} |", own * time);
+    row += fmt::format(" {:.2f} | {:.0f} % | {:.2f} |", f.write, 100 * (f.open + f.write) / (f.open + f.cpu + f.write),
+                       own * f.convert);
     if (c.two_threads.end == End::finished)
-      row += fmt::format(" {:.2f} → {:.2f} | {:.2f} | {} |", f.convert, c.two_threads.figures.convert,
+      row += fmt::format(" {:.2f} → {:.2f}: {:.2f} | {} |", f.convert, c.two_threads.figures.convert,
                          f.convert / c.two_threads.figures.convert, c.same_bytes ? "yes" : "**no**");
     else
-      row += " - | - | - |";
+      row += " - | - |";
     fmt::print("{}\n", row);
   }
 }
@@ -149,7 +153,7 @@ void print_stages(const std::vector<Comparison>& comparisons) {
 /// False if Gmsh's Blossom would be over the limit even at the cost per triangle of the size before.
 bool worth_trying(const Comparison& before, double size, double limit) {
   if (before.blossom.end != End::finished) return false;
-  return before.blossom.figures.work / double(before.triangles) * size < limit;
+  return before.blossom.figures.cpu / double(before.triangles) * size < limit;
 }
 
 /// On a quiet machine, one thread takes as many seconds as its processor's.
@@ -161,9 +165,9 @@ void print_disturbance(const std::vector<Comparison>& comparisons) {
       if (ran->end == End::finished && ran->figures.work > kShort) work += ran->figures.work, cpu += ran->figures.cpu;
   if (cpu < kQuiet * work)
     fmt::print(
-        "\nOther programs ran meanwhile: the processor spent {:.0f} % of the seconds of one thread on it, and two "
-        "threads "
-        "had less than two processors.\n",
+        "\nOther programs ran meanwhile: one thread had a processor for {:.0f} % of the time, and two threads had less "
+        "than "
+        "two, so that the speed-ups say nothing.\n",
         100 * cpu / work);
 }
 
@@ -175,6 +179,11 @@ void log(const Comparison& c) {
 }
 
 }  // namespace
+
+double seconds(const Comparison& comparison, Ran Comparison::*which) {
+  const Figures& figures = (comparison.*which).figures;
+  return which == &Comparison::two_threads ? figures.work : figures.cpu;
+}
 
 std::vector<Comparison> compare_with_gmsh(const std::vector<double>& sizes, const std::vector<Kind>& kinds,
                                           double limit) {

@@ -18,7 +18,10 @@ struct Comparison {
   bool same_bytes = false;  ///< of the files that one thread and two made
 };
 
-/// Runs and prints both tables (Markdown). \param limit seconds for each measurement
+/// Of one thread, the processor's, which other programs on the machine do not disturb; of two, the clock's.
+double seconds(const Comparison& comparison, Ran Comparison::*which);
+
+/// Runs and prints both tables (Markdown). \param limit seconds of the processor for each measurement
 std::vector<Comparison> compare_with_gmsh(const std::vector<double>& sizes, const std::vector<Kind>& kinds,
                                           double limit);
 

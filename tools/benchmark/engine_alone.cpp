@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -24,7 +25,8 @@ double memory(const std::string& name) {
 }
 
 struct Timing {
-  double seconds;
+  double seconds;  // of the processor, which other programs on the machine do not disturb
+  double own;      // over those of the clock
   qmorph::ConversionStats stats;
 };
 
@@ -53,10 +55,12 @@ double run(Kind kind, const std::vector<qmorph::Patch>& patches, int repeats) {
     std::ofstream("/proc/self/clear_refs") << 5;  // forget the peak so far
     const double before = memory("VmRSS");
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();
     outcomes = qmorph::convert_all(pointers, options);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     bytes = std::max(bytes, memory("VmHWM") - before);
-    Timing timing{elapsed.count(), {}};
+    const double seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    Timing timing{seconds, seconds / elapsed.count(), {}};
     for (const qmorph::Outcome& outcome : outcomes) {
       if (!outcome.mesh) {
         std::fprintf(stderr, "bench: %s\n", outcome.reason.c_str());
@@ -79,9 +83,10 @@ double run(Kind kind, const std::vector<qmorph::Patch>& patches, int repeats) {
   const qmorph::Quality quality = figures.result();
   const double per_triangle = t.seconds / double(triangles);
   std::printf("%-13s %9zu %8.3f %8.3f %8.3f %8.3f %8.3f %8.2f %9zu %5zu %6.3f %6.3f %5.1f%% %7.0f\n", name_of(kind),
-              triangles, t.seconds, t.stats.front_seconds, t.stats.elimination_seconds, t.stats.cleanup_seconds,
-              t.stats.smoothing_seconds, 1e6 * per_triangle, quads, left, quality.scaled_jacobian_min,
-              quality.scaled_jacobian_mean, 100 * quality.irregular_share(), bytes / double(triangles));
+              triangles, t.seconds, t.own * t.stats.front_seconds, t.own * t.stats.elimination_seconds,
+              t.own * t.stats.cleanup_seconds, t.own * t.stats.smoothing_seconds, 1e6 * per_triangle, quads, left,
+              quality.scaled_jacobian_min, quality.scaled_jacobian_mean, 100 * quality.irregular_share(),
+              bytes / double(triangles));
   std::fflush(stdout);
   if (quality.inverted != 0) {
     std::fprintf(stderr, "bench: %zu inverted elements\n", quality.inverted);

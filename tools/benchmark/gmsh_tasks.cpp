@@ -170,16 +170,16 @@ template <class Work>
 Figures pass_through(const std::string& in, const std::string& out, Work work) {
   start_gmsh();
   Figures figures;
-  StopWatch watch;
+  double before = cpu_seconds();
+  const auto cpu_lap = [&before] { return cpu_seconds() - std::exchange(before, cpu_seconds()); };
   gmsh::open(in);
-  figures.open = watch.lap();
-  const double cpu = cpu_seconds();
-  watch.lap();
+  figures.open = cpu_lap();
+  StopWatch watch;
   work(figures);
   figures.work = watch.lap();
-  figures.cpu = cpu_seconds() - cpu;
+  figures.cpu = cpu_lap();
   gmsh::write(out);
-  figures.write = watch.lap();
+  figures.write = cpu_lap();
   return figures;
 }
 
@@ -189,9 +189,7 @@ Figures write_triangles(const Triangulation& mesh, const std::string& path) {
   start_gmsh();
   Figures figures;
   build_model(mesh);
-  StopWatch watch;
   gmsh::write(path);
-  figures.write = watch.lap();
   return figures;
 }
 

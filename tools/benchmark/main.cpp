@@ -23,7 +23,7 @@ const char* const kUsage =
     "  surfaces (100); all three if none is named.\n"
     "  --once: one conversion each instead of the middle one of three\n"
     "  --beside-gmsh: the same triangles by Gmsh's recombination and by qmorph, as tables\n"
-    "  --limit SECONDS: for each measurement beside Gmsh (600)\n"
+    "  --limit SECONDS: of the processor, for each measurement beside Gmsh (600)\n"
     "  --svg FILE: the tables as a picture\n"
     "  --write FILE.msh: no conversion; the triangles as a file, for other programs\n";
 

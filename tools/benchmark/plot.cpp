@@ -61,7 +61,7 @@ class Plot {
       triangles_.include(double(c.triangles) / 1.1);  // sizes are met from above by a hair
       triangles_.include(double(c.triangles) * 0.9);
       for (const Line& line : kLines)
-        if (const Ran& ran = c.*line.ran; ran.end == End::finished) seconds_.include(ran.figures.work);
+        if (const Ran& ran = c.*line.ran; ran.end == End::finished) seconds_.include(seconds(c, line.ran));
     }
   }
 
@@ -130,7 +130,7 @@ class Plot {
     for (const Comparison& c : comparisons_) {
       const Ran& ran = c.*line.ran;
       if (c.kind != kind || ran.end != End::finished) continue;
-      const double x = x_of(double(c.triangles)), y = y_of(ran.figures.work);
+      const double x = x_of(double(c.triangles)), y = y_of(seconds(c, line.ran));
       points += fmt::format("{:.1f},{:.1f} ", x, y);
       dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", x, y, line.colour);
     }
