@@ -30,13 +30,15 @@ constexpr Line kLines[] = {
     {"qmorph, 2 threads", "#1e64b4", "6 4", &Comparison::two_threads},
 };
 
+constexpr double kHair = 1.1;  // values this near to a power of ten need no further one
+
 /// Powers of ten around all values.
 struct Decades {
   int first = 1000, last = -1000;
   void include(double value) {
     if (value <= 0) return;
-    first = std::min(first, int(std::floor(std::log10(value))));
-    last = std::max(last, int(std::ceil(std::log10(value))));
+    first = std::min(first, int(std::floor(std::log10(value * kHair))));
+    last = std::max(last, int(std::ceil(std::log10(value / kHair))));
   }
   double share(double value) const { return (std::log10(value) - first) / std::max(1, last - first); }
 };
@@ -46,11 +48,11 @@ std::string seconds_label(int power) {
   return power < 0 ? fmt::format("{:.{}f}", std::pow(10, power), -power) : fmt::format("{:.0f}", std::pow(10, power));
 }
 
-/// "10 thousand"
+/// "10 k", "1 M"
 std::string triangles_label(int power) {
-  const int thousands = power / 3;
-  const char* const names[] = {"", " thousand", " million"};
-  return fmt::format("{:.0f}{}", std::pow(10, power - 3 * std::min(thousands, 2)), names[std::clamp(thousands, 0, 2)]);
+  const int step = std::clamp(power / 3, 0, 2);
+  const char* const units[] = {"", " k", " M"};
+  return fmt::format("{:.0f}{}", std::pow(10, power - 3 * step), units[step]);
 }
 
 class Plot {
@@ -58,8 +60,7 @@ class Plot {
   explicit Plot(const std::vector<Comparison>& comparisons) : comparisons_(comparisons) {
     for (const Comparison& c : comparisons) {
       if (std::find(kinds_.begin(), kinds_.end(), c.kind) == kinds_.end()) kinds_.push_back(c.kind);
-      triangles_.include(double(c.triangles) / 1.1);  // sizes are met from above by a hair
-      triangles_.include(double(c.triangles) * 0.9);
+      triangles_.include(double(c.triangles));
       for (const Line& line : kLines)
         if (const Ran& ran = c.*line.ran; ran.end == End::finished) seconds_.include(seconds(c, line.ran));
     }
@@ -113,11 +114,7 @@ class Plot {
     for (int p = triangles_.first; p <= triangles_.last; ++p) {
       const double x = x_of(std::pow(10, p));
       stroke(x, kTop, x, bottom, "#dcdcdc", 1);
-      write(x, bottom + 18,
-            p == triangles_.first  ? "start"
-            : p == triangles_.last ? "end"
-                                   : "middle",
-            triangles_label(p));
+      write(x, bottom + 18, "middle", triangles_label(p));
     }
     write(left + kPanelWidth / 2, kTop - 12, "middle", name_of(kind), " font-weight=\"bold\"");
     write(left + kPanelWidth / 2, bottom + 38, "middle", "triangles");
