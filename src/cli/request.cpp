@@ -214,6 +214,28 @@ std::string wrapped(const std::string& words) {
   return text + "  " + line + '\n';
 }
 
+/// In the place of CLI11's check, which tells the whole range of a double.
+CLI::Validator whole_number(const std::string& option) {
+  const auto check = [option](const std::string& text) {
+    int number = 0;
+    if (!CLI::detail::lexical_cast(text, number) || number < 0)
+      throw UsageError(fmt::format("{} takes a whole number, 0 or more", option));
+    return std::string();
+  };
+  return CLI::Validator(check, "");
+}
+
+/// \throws UsageError for what asks for a file beside --check
+void refuse_files_of_check(const Request& request) {
+  const std::array all = {std::pair("-o", !request.output.empty()),     std::pair("--for", !request.consumer.empty()),
+                          std::pair("--stats", !request.stats.empty()), std::pair("--report", !request.report.empty()),
+                          std::pair("--film", !request.film.empty()),   std::pair("--svg", !request.svg.empty()),
+                          std::pair("--pdf", !request.pdf.empty()),     std::pair("--tikz", !request.tikz.empty()),
+                          std::pair("--views", request.views)};
+  for (const auto& [option, given] : all)
+    if (given) throw UsageError(fmt::format("--check writes nothing; leave out {}", option));
+}
+
 int surface_tag(const std::string& text) {
   int tag = 0;
   if (!CLI::detail::lexical_cast(text, tag) || tag < 0)
@@ -240,7 +262,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_flag("--2", ignored_flag);
   app.add_flag("--3", volumes);
   app.add_flag("--save", request.no_meshing);
-  app.add_option("--part", request.partitions)->check(CLI::NonNegativeNumber);
+  app.add_option("--part", request.partitions)->check(whole_number("-part"));
   app.add_flag("--drop-volumes", request.drop_volumes);
   app.add_option("--for", request.consumer);
   auto* elements = app.add_option("--elements", request.elements);
@@ -248,8 +270,8 @@ Request parse(const std::vector<std::string>& arguments) {
   auto* min_sj = app.add_option("--min-sj", request.thresholds.min_scaled_jacobian)->check(CLI::Range(-1.0, 1.0));
   auto* irregular = app.add_option("--max-irregular", request.thresholds.max_irregular)->check(CLI::Range(0.0, 1.0));
   auto* no_triangles = app.add_flag("--no-triangles", request.thresholds.no_triangles);
-  app.add_option("--nt", request.threads)->check(CLI::NonNegativeNumber);
-  app.add_option("--v", request.verbosity)->check(CLI::NonNegativeNumber);
+  app.add_option("--nt", request.threads)->check(whole_number("-nt"));
+  app.add_option("--v", request.verbosity)->check(whole_number("-v"));
   std::vector<std::string> surfaces;
   app.add_option("--surfaces", surfaces)->delimiter(',')->allow_extra_args(false);
   app.add_flag("--all-quad", request.all_quad);
@@ -287,6 +309,7 @@ Request parse(const std::vector<std::string>& arguments) {
     throw UsageError("--elements goes with --for calculix or abaqus");
   if (!request.check && (*min_sj || *irregular || *no_triangles))
     throw UsageError("--min-sj, --max-irregular and --no-triangles go with --check");
+  if (request.check) refuse_files_of_check(request);
   if (request.all_quad && request.cleanup_only)
     throw UsageError("--all-quad is for the conversion of triangles; --cleanup-only takes curves as they are");
   if (!request.film.empty() && request.cleanup_only)

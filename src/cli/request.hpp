@@ -17,19 +17,20 @@ struct Thresholds {
 /// One call of the command.
 struct Request {
   std::string input, output, format, stats, report, film;
-  std::string svg, pdf, tikz;             ///< files for pictures
+  std::string svg, pdf, tikz;                  ///< files for pictures
   std::string stage = "final", colour = "sj";  ///< of the pictures
-  std::vector<std::string> merged;  ///< further files, merged with the input
-  std::string consumer;             ///< of --for
-  std::string elements = "CPS";     ///< family of a deck's surface elements
+  std::vector<std::string> merged;             ///< further files, merged with the input
+  std::string consumer;                        ///< of --for
+  std::string elements = "CPS";                ///< family of a deck's surface elements
   Thresholds thresholds;
   std::vector<int> surfaces;
   std::string smoothing;              ///< the method, or empty
   std::vector<std::string> settings;  ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;
-  bool cleanup_only = false;  ///< improve the quads that are there
-  bool all_quad = false;      ///< curves may get nodes so that no triangle is left
+  bool from_stdin = false, to_stdout = false;  ///< input or output is a temporary file in its place
+  bool cleanup_only = false;                   ///< improve the quads that are there
+  bool all_quad = false;                       ///< curves may get nodes so that no triangle is left
   std::vector<int> keep_curves;
   bool views = false;       ///< figures go into the mesh file, or beside it
   bool view = false;        ///< Gmsh's window in the end

@@ -1,6 +1,5 @@
 #include "cli/run.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,6 +23,7 @@
 #include "cli/request.hpp"
 #include "cli/scene.hpp"
 #include "cli/side_files.hpp"
+#include "cli/standard_streams.hpp"
 #include "gmsh/consumers.hpp"
 #include "gmsh/meshing.hpp"
 #include "gmsh/open.hpp"
@@ -43,32 +43,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
-
-/// OpenCASCADE speaks on the standard output, which is ours. For the time of this object's life that is the standard
-/// error.
-class StdoutAsStderr {
- public:
-  StdoutAsStderr() {
-    flush();
-    saved_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    if (saved_ >= 0) ::dup2(STDERR_FILENO, STDOUT_FILENO);
-  }
-  ~StdoutAsStderr() {
-    flush();
-    if (saved_ < 0) return;
-    ::dup2(saved_, STDOUT_FILENO);
-    ::close(saved_);
-  }
-  StdoutAsStderr(const StdoutAsStderr&) = delete;
-  StdoutAsStderr& operator=(const StdoutAsStderr&) = delete;
-
- private:
-  static void flush() {
-    std::cout.flush();
-    std::fflush(stdout);
-  }
-  int saved_ = -1;
-};
 
 /// What Gmsh is told by the name of a file: meshes, STEP, BREP and scripts begin differently.
 std::string extension_of(const std::string& text) {
@@ -119,6 +93,7 @@ adapter::OutputPlan check_places(const Request& request) {
   }
   adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, format);
   plan.for_reader = !request.consumer.empty();
+  if (request.to_stdout) plan.name = "standard output";
   for (const auto& [option, path] : side_files(request))
     if (is_same_file(path, plan.path))
       throw UsageError(fmt::format("{} {} is the output; give it a file of its own", option, path));
@@ -189,8 +164,9 @@ void print_once(std::string_view prefix, const std::vector<std::string>& lines, 
   }
 }
 
+/// \param output what to call it
 void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,
-                   const report::RunFacts& facts, std::ostream& err) {
+                   const report::RunFacts& facts, const std::string& output, std::ostream& err) {
   if (request.verbosity >= 2) print_once("Gmsh: ", opened.warnings, err);
   if (request.verbosity >= 1) {
     for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
@@ -200,9 +176,9 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
         err << "warning: surface " << surface.tag << ": " << warning << '\n';
     }
     if (facts.even) err << report::even_line(*facts.even) << '\n';
-    err << report::total_line(model, facts.output, facts.total_seconds) << '\n';
+    err << report::total_line(model, output, facts.total_seconds) << '\n';
   }
-  print_outcome(model, facts.output, err);
+  print_outcome(model, output, err);
 }
 
 /// The mesh and all the other files, or none. \param mesh null if it is in its place already
@@ -250,7 +226,10 @@ std::vector<std::string> finish_model(const Request& request, adapter::OpenedMod
   const adapter::RaisedModel raised = adapter::raise_model();
   note(raised.warnings);
   if (!opened.had_mesh) adapter::renumber();
-  if (request.partitions > 0) adapter::partition(request.partitions);
+  if (request.partitions > 0) {
+    opened.carried = adapter::carry_over(opened.views);  // partitions take the elements from their surfaces
+    adapter::partition(request.partitions);
+  }
   return raised.bent;
 }
 
@@ -277,7 +256,7 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
     model = measure(request.surfaces);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
-  if (request.verbosity >= 1) out << report::check_line(model) << '\n';
+  if (request.verbosity >= 1) answer(report::check_line(model) + '\n', out);
   const std::vector<std::string> reasons = find_reasons(model, request.thresholds);
   for (const std::string& reason : reasons) err << "qmorph: " << reason << '\n';
   return reasons.empty() ? kAllConverted : kNotGoodEnough;
@@ -303,7 +282,8 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   bar.reset();
   if (model.surfaces.empty()) {
-    err << "qmorph: nothing to convert: " << request.input << " has no surface with elements\n";
+    err << "qmorph: nothing to convert: " << (request.from_stdin ? "standard input" : request.input)
+        << " has no surface with elements\n";
     return kNothingToConvert;
   }
 
@@ -317,7 +297,8 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   adapter::StagedFile file = adapter::stage(plan);
   const bool written = write(request, plan, opened, model, file);
   const int status = bent.empty() ? status_of(model) : kConvertedInPart;
-  report::RunFacts facts{request.input, plan.path, arguments, status, even};
+  report::RunFacts facts{request.from_stdin ? "-" : request.input, request.to_stdout ? "-" : plan.path, arguments,
+                         status, even};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
@@ -326,7 +307,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   if (request.views)
     for (SideFile& views : write_views(request, opened, plan.path, file)) others.push_back(std::move(views));
   commit(written ? &file : nullptr, others);
-  print_summary(request, opened, model, facts, err);
+  print_summary(request, opened, model, facts, plan.name, err);
   for (const std::string& what : bent) err << "qmorph: " << what << '\n';
   if (request.view)
     if (const std::string problem = adapter::show_in_window(plan.path); !problem.empty())
@@ -337,21 +318,21 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
 /// Standard input and output have names as files for as long as it takes.
 int run_with_streams(Request request, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
   std::optional<adapter::ScratchFile> input, output;
-  const bool to_stream = request.output == "-" || (request.output.empty() && request.input == "-");
-  if (request.input == "-") {
+  request.from_stdin = request.input == "-";
+  request.to_stdout = request.output == "-" || (request.output.empty() && request.from_stdin);
+  if (request.from_stdin) {
     const std::string text(std::istreambuf_iterator<char>(std::cin), {});
     input.emplace(extension_of(text));
     std::ofstream(input->path(), std::ios::binary) << text;
     request.input = input->path();
   }
   if (request.check) return check_file(request, out, err);
-  if (!to_stream) return convert_file(request, arguments, err);
+  if (!request.to_stdout) return convert_file(request, arguments, err);
   output.emplace(".msh");
   request.output = output->path();
   if (request.format.empty() && request.consumer.empty()) request.format = "msh";
   const int status = convert_file(request, arguments, err);
-  out << std::ifstream(output->path(), std::ios::binary).rdbuf() << std::flush;
-  out.clear();  // nothing to write is no failure of the stream
+  answer_with_file(output->path(), out);
   return status;
 }
 
@@ -363,9 +344,10 @@ int fail(int status, std::string_view what, std::ostream& err) {
 }  // namespace
 
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) try {
+  hold_standard_streams();
   const Request request = parse(arguments);
-  if (request.help) out << help_text();
-  if (request.version) out << "qmorph " << kVersion << '\n';
+  if (request.help) answer(help_text(), out);
+  if (request.version) answer(fmt::format("qmorph {}\n", kVersion), out);
   if (request.help || request.version) return kAllConverted;
   return run_with_streams(request, arguments, out, err);
 } catch (const ReaderError& error) {

@@ -1,6 +1,7 @@
 #pragma once
 /// From a file to a model with triangles.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,11 @@ void check_readable(const std::string& path);
 
 /// What `open_model` found.
 struct OpenedModel {
-  MshHeader msh;          ///< version 0: not a .msh file
-  bool had_mesh = false;  ///< the surfaces' elements come from the file, not from Gmsh's mesher
-  Msh2Origin origin;      ///< of a file of MSH 2 that had to be taken apart
-  MeshData views;         ///< data on the mesh of the file
+  MshHeader msh;                                 ///< version 0: not a .msh file
+  bool had_mesh = false;                         ///< the surfaces' elements come from the file, not from Gmsh's mesher
+  Msh2Origin origin;                             ///< of a file of MSH 2 that had to be taken apart
+  MeshData views;                                ///< data on the mesh of the file
+  std::optional<std::vector<ViewStep>> carried;  ///< `views` on the quads, if that has been done already
   std::vector<std::string> warnings;
   double open_seconds = 0, mesh_seconds = 0;
 };

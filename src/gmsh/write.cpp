@@ -181,6 +181,7 @@ OutputPlan plan_output(const std::string& input, const std::string& output, cons
     if (!by_name) plan.format = format_by_name("msh");
     plan.path = fs::path(input).replace_extension(default_extension(plan.format)).string();
   }
+  plan.name = plan.path;
   const StagedFile probe(plan.path, plan.format.extension);  // says at once if nothing can be written there
   return plan;
 }
@@ -214,7 +215,7 @@ std::vector<std::string> describe_unwritten(const OutputPlan& plan, const Opened
     lines.push_back(
         fmt::format("data on nodes and elements (views) is not written to {}; MSH 2.2 and 4 keep it, "
                     "without --for",
-                    plan.path));
+                    plan.name));
   if (opened.msh.version == 0 || plan.format.is_msh || !has_groups() || get_option("Mesh.SaveAll") != 0) return lines;
   std::string surfaces;
   for (const auto& [dim, tag] : ungrouped_entities())
@@ -222,7 +223,7 @@ std::vector<std::string> describe_unwritten(const OutputPlan& plan, const Opened
   if (!surfaces.empty())
     lines.push_back(
         fmt::format("surfaces in no physical group are not written to {}: {} (-setnumber Mesh.SaveAll 1 writes all)",
-                    plan.path, surfaces));
+                    plan.name, surfaces));
   return lines;
 }
 
@@ -240,7 +241,8 @@ void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWis
       ::gmsh::write(file.path());
   });
   if (!log.errors.empty()) throw OutputError(fmt::format("cannot write {}: {}", plan.path, first_errors(log)));
-  if (holds_views(version)) append_views(file.path(), binary, carry_over(opened.views));
+  if (holds_views(version))
+    append_views(file.path(), binary, opened.carried ? *opened.carried : carry_over(opened.views));
   if (plan.format.is_msh) check_msh_end(file.path(), plan.path);
 }
 

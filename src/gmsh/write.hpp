@@ -21,6 +21,7 @@ struct OutputFormat {
 /// What to write, decided before any work is done.
 struct OutputPlan {
   std::string path;
+  std::string name;  ///< what messages call it
   OutputFormat format;
   bool for_reader = false;  ///< in the terms of --for: numbered anew
 };

@@ -63,3 +63,15 @@ TEST_CASE("check: files that are none") {
   CHECK(run_qmorph({"--check", directory / "in.geo"}).status == 2);
   CHECK(run_qmorph({directory / "in.geo", "--min-sj", "0.2"}).status == 1);
 }
+
+TEST_CASE("check: what asks for a file is refused, since it writes none") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  for (const char* option : {"-o", "--stats", "--svg"}) {
+    CAPTURE(option);
+    const Result result = run_qmorph({"--check", directory / "in.msh", option, directory / "foo.msh"});
+    CHECK(result.status == 1);
+    CHECK(mentions(result.err, std::string("--check writes nothing; leave out ") + option));
+    CHECK(result.out.empty());
+  }
+}

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "gmsh/compat.hpp"
@@ -144,4 +145,41 @@ TEST_CASE("process: a full disk is said, and the earlier file is as it was") {
       CHECK((read_file(out) == "earlier"));
       CHECK(std::distance(std::filesystem::directory_iterator(directory / "disk"), {}) == 1);
     }
+}
+
+TEST_CASE("process: an answer that the standard output does not take is a failure in one line") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  make_msh(directory / "in.msh", 4.1, false, build_two_squares);
+  for (const std::string& words :
+       {fmt::format("'{}' -o - -v 0", directory / "in.msh"), fmt::format("'{}' -o - -v 0", directory / "in.geo"),
+        fmt::format("--check '{}'", directory / "in.msh"), std::string("--help")})
+    for (const char* nowhere : {">/dev/full", ">&-"}) {
+      CAPTURE(words);
+      CAPTURE(nowhere);
+      const std::string command =
+          fmt::format("'{}' {} {} 2>'{}'", QMORPH_COMMAND, words, nowhere, directory / "stderr");
+      CHECK(WEXITSTATUS(std::system(command.c_str())) == 5);
+      const std::string said = read_file(directory / "stderr");
+      CHECK(said.find("qmorph: cannot write the standard output: ") == 0);
+      CHECK(said.find('\n') == said.size() - 1);
+    }
+}
+
+TEST_CASE("process: a reader that goes away leaves no temporary file, and no name of one is told") {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "tmp");
+  write_file(directory / "in.geo", kFineSquare);
+  const std::string stats = directory / "s.json", said = directory / "stderr";
+  const std::string command =
+      fmt::format("(TMPDIR='{}' '{}' - --stats '{}' <'{}' 2>'{}'; echo $? >'{}') | true", directory / "tmp",
+                  QMORPH_COMMAND, stats, directory / "in.geo", said, directory / "status");
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(read_file(directory / "status") == "5\n");
+  CHECK(std::filesystem::is_empty(directory / "tmp"));
+  CHECK(read_file(said).find(directory / "tmp") == std::string::npos);
+  CHECK(read_file(said).find("s; standard output\n") != std::string::npos);
+  const auto figures = nlohmann::json::parse(read_file(stats));
+  CHECK(figures["output"] == "-");
+  CHECK(figures["input"] == "-");
 }

@@ -138,3 +138,13 @@ TEST_CASE("request: the help names every option and every exit status") {
         "\n  0  ", "\n  1  ", "\n  2  ", "\n  3  ", "\n  4  ",    "\n  5  "})
     CHECK(help.find(word) != std::string::npos);
 }
+
+TEST_CASE("request: counts are whole numbers") {
+  for (const std::string option : {"-nt", "-part", "-v"})
+    for (const char* value : {"-3", "abc", "2.5", "99999999999"}) {
+      CAPTURE(value);
+      const std::string message = option + " takes a whole number, 0 or more";
+      CHECK_THROWS_WITH_AS(parse({"in.msh", option, value}), message.c_str(), UsageError);
+    }
+  CHECK(parse({"in.msh", "-nt", "0"}).threads == 0);
+}

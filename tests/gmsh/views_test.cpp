@@ -238,3 +238,18 @@ TEST_CASE("views: formats that have no place for them say so") {
     CHECK(result.err.find("data on nodes and elements (views) is not written") != std::string::npos);
   }
 }
+
+TEST_CASE("views: partitions lose no data") {
+  const View constant{"constant", "ElementData", [](const auto&, int) { return std::vector{7.0}; }};
+  for (const char* format : {"msh22", "msh41"}) {
+    CAPTURE(format);
+    const TemporaryDirectory directory;
+    make_file_with_views(directory / "in.msh", 4.1, false, {kTemperature, constant});
+    const Result result =
+        run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "-part", "2", "-format", format});
+    CHECK(result.status == 0);
+    const adapter::MeshData data = read_data(directory / "out.msh");
+    check_view(data, kTemperature, false);
+    check_view(data, constant, false);
+  }
+}
