@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -233,9 +234,65 @@ bool has_nodes(const std::string& path) {
   return false;
 }
 
+constexpr const char* kMeshItFirst = "mesh the geometry to a .msh file first, and merge that";
+
+bool is_discrete(int dim, int tag) { return entity_type(dim, tag).find("Discrete") != std::string::npos; }
+
+bool has_elements(int dim, int tag) {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, dim, tag);
+  return !types.empty();
+}
+
+/// An entity of a geometry, without nodes, and the box that it lies in.
+struct Place {
+  int dim = 0, tag = 0;
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Place> read_empty_places() {
+  std::vector<Place> places;
+  ::gmsh::vectorpair entities;
+  ::gmsh::model::getEntities(entities);
+  for (const auto& [dim, tag] : entities) {
+    if (dim == 3 || is_discrete(dim, tag) || has_elements(dim, tag)) continue;
+    Eigen::Vector3d low, high;
+    ::gmsh::model::getBoundingBox(dim, tag, low[0], low[1], low[2], high[0], high[1], high[2]);
+    places.push_back({dim, tag, Eigen::AlignedBox3d(low, high)});
+  }
+  return places;
+}
+
+/// Gmsh puts what a mesh has on surface 1 on the surface 1 that is there, wherever that is.
+void check_places(const std::string& path, const std::vector<Place>& places) {
+  constexpr double kSlack = 1e-2;  // of the whole: a mesh of another size leaves a curved entity's box a little
+  Eigen::AlignedBox3d whole;
+  for (const Place& place : places) whole.extend(place.box);
+  for (const Place& place : places) {
+    std::vector<std::size_t> tags;
+    std::vector<double> xyz, parameters;
+    ::gmsh::model::mesh::getNodes(tags, xyz, parameters, place.dim, place.tag, false, false);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      const Eigen::Vector3d p = Eigen::Vector3d::Map(&xyz[3 * i]);
+      if (place.box.exteriorDistance(p) > kSlack * whole.diagonal().norm())
+        throw InputError(
+            fmt::format("{} is not a mesh of the geometry that it is merged with: node {} at ({:g}, {:g}, {:g}) "
+                        "is not on the entity {} of dimension {}; {}",
+                        path, tags[i], p.x(), p.y(), p.z(), place.tag, place.dim, kMeshItFirst));
+    }
+  }
+}
+
 void merge_plainly(const std::string& path) {
+  const std::vector<Place> places = read_empty_places();
   const StageLog log = run_logged([&] { ::gmsh::merge(path); });
-  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
+  if (!log.errors.empty()) {
+    const std::string errors = first_errors(log);
+    const bool taken = errors.find("already exists") != std::string::npos;
+    throw InputError(fmt::format("{} cannot be merged: {}{}", path, errors,
+                                 taken ? fmt::format("; give its entities other numbers, or {}", kMeshItFirst) : ""));
+  }
+  check_places(path, places);
 }
 
 }  // namespace
@@ -258,6 +315,22 @@ std::vector<ViewStep> merge_file(const std::string& path) {
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
   add_groups(guest, *shift);
   return shifted(guest.data, *shift);
+}
+
+void check_geometry_kept() {
+  ::gmsh::vectorpair surfaces, shapes;
+  ::gmsh::model::getEntities(surfaces, 2);
+  const auto is_meshed = [](const std::pair<int, int>& surface) { return has_elements(2, surface.second); };
+  if (std::none_of(surfaces.begin(), surfaces.end(), is_meshed)) return;
+  ::gmsh::model::occ::getEntities(shapes, 2);
+  for (const auto& surface : surfaces) {
+    const bool discrete = is_discrete(2, surface.second);
+    // With another geometry's number, the surface that was there first stays.
+    const bool replaced = discrete && std::count(shapes.begin(), shapes.end(), surface);
+    if (replaced || (!discrete && !is_meshed(surface)))
+      throw InputError(fmt::format("surface {} is of a geometry without a mesh, and others come meshed; {}",
+                                   surface.second, kMeshItFirst));
+  }
 }
 
 }  // namespace qmorph::adapter

@@ -182,6 +182,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
     const std::vector<ViewStep> data = merge_file(file);
     merged_data.insert(merged_data.end(), data.begin(), data.end());
   }
+  if (!options.merged.empty()) check_geometry_kept();
   if (!options.background.empty()) set_background(options.background);
   take_control();
   check_element_count(path, contents, opened.origin);

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "gmsh/compat.hpp"
@@ -144,4 +145,47 @@ TEST_CASE("merge: a file of data alone goes onto the mesh of the first") {
   write_file(directory / "data.msh", data + "$EndNodeData\n");
   CHECK(run_qmorph({directory / "a.msh", directory / "data.msh", "-o", directory / "out.msh"}).status == 0);
   CHECK(read_file(directory / "out.msh").find("$NodeData\n1\n\"height\"") != std::string::npos);
+}
+
+TEST_CASE("merge: a geometry whose surfaces a foreign mesh would take, or leave without elements, is refused") {
+  const TemporaryDirectory directory;
+  const std::string head = "SetFactory(\"OpenCASCADE\");\nMesh.MeshSizeMax = 0.3;\n";
+  write_file(directory / "same.geo", head + "Rectangle(1) = {5, 0, 0, 1, 1};\n");
+  write_file(directory / "other.geo", head + "Rectangle(9) = {5, 0, 0, 1, 1};\n");
+  write_file(directory / "plain.geo",
+             "Point(1) = {5,0,0,.3}; Point(2) = {6,0,0,.3}; Point(3) = {5,1,0,.3};\n"
+             "Line(1) = {1,2}; Line(2) = {2,3}; Line(3) = {3,1}; Curve Loop(1) = {1:3}; Plane Surface(1) = {1};\n");
+  for (double version : {2.2, 4.1}) {
+    make_msh(directory / "b.msh", version, false, square_at(0, "left", 5));
+    for (const char* name : {"same.geo", "other.geo", "plain.geo"})
+      for (bool geometry_first : {true, false}) {
+        CAPTURE(name);
+        CAPTURE(geometry_first);
+        const std::string first = geometry_first ? name : "b.msh", second = geometry_first ? "b.msh" : name;
+        const Result result = run_qmorph({directory / first, directory / second, "-o", directory / "out.msh"});
+        CAPTURE(result.err);
+        CHECK(result.status == 2);
+        CHECK(result.err.find("mesh the geometry to a .msh file first") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(directory / "out.msh"));
+      }
+  }
+}
+
+TEST_CASE("merge: a geometry takes its own mesh, and a mesh takes a script") {
+  const TemporaryDirectory directory;
+  write_file(directory / "a.geo",
+             "SetFactory(\"OpenCASCADE\");\nMesh.MeshSizeMax = 0.3;\nDisk(1) = {0, 0, 0, 1};\n"
+             "Rectangle(2) = {3, 0, 0, 1, 1};\n");
+  write_file(directory / "script.geo", "Physical Surface(\"all\", 8) = {1, 2};\n");
+  make_msh(directory / "a.msh", 4.1, false, [&] {
+    ::gmsh::merge(directory / "a.geo");
+    ::gmsh::model::mesh::generate(2);
+  });
+  for (const auto& [first, second] : {std::pair("a.geo", "a.msh"), std::pair("a.msh", "script.geo")}) {
+    CAPTURE(first);
+    const Result result = run_qmorph({directory / first, directory / second, "-o", directory / "out.msh"});
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    for (int surface : {1, 2}) CHECK(element_counts(read_snapshot(directory / "out.msh"), surface).second > 0);
+  }
 }
