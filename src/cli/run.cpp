@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -304,8 +305,12 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
   std::vector<SideFile> others = make_side_files(request, before, model, facts);
-  if (request.views)
-    for (SideFile& views : write_views(request, opened, plan.path, file)) others.push_back(std::move(views));
+  if (request.views) {
+    std::vector<SideFile> views = write_views(request, opened, plan.path, file);
+    if (request.to_stdout && !views.empty())
+      throw UsageError("--views: the standard output has no file beside it; write MSH 4, or give -o a name");
+    std::move(views.begin(), views.end(), std::back_inserter(others));
+  }
   commit(written ? &file : nullptr, others);
   print_summary(request, opened, model, facts, plan.name, err);
   for (const std::string& what : bent) err << "qmorph: " << what << '\n';

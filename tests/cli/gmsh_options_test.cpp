@@ -172,3 +172,15 @@ TEST_CASE("gmsh options: - is the standard output, with nothing else on it") {
   CHECK(result.out.substr(result.out.size() - 13) == "$EndElements\n");
   CHECK(directory.files() == std::vector<std::string>{"in.geo"});
 }
+
+TEST_CASE("gmsh options: with - there is no place for a file of views beside the mesh") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kSquare);
+  const Result refused = run_qmorph({directory / "in.geo", "-o", "-", "-format", "vtk", "--views"});
+  CHECK(refused.status == 1);
+  CHECK(refused.err.find("qmorph: --views: the standard output has no file beside it") == 0);
+  CHECK(refused.out.empty());
+  const Result taken = run_qmorph({directory / "in.geo", "-o", "-", "--views"});
+  CHECK(taken.status == 0);
+  CHECK(taken.out.find("$ElementData") != std::string::npos);
+}
