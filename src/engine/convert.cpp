@@ -4,7 +4,6 @@
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
 #include "engine/surface.hpp"
-#include "parallel/for_each.hpp"
 
 namespace qmorph {
 namespace {
@@ -22,11 +21,7 @@ QuadMesh convert_patch(const Patch& patch, const Options& options) {
 
 }  // namespace
 
-QuadMesh convert(const Patch& patch, const Options& options) {
-  QuadMesh mesh;
-  parallel::with_threads(options.threads, [&] { mesh = convert_patch(patch, options); });
-  return mesh;
-}
+QuadMesh convert(const Patch& patch, const Options& options) { return work_on_patch(patch, options, convert_patch); }
 
 std::vector<Outcome> convert_all(const std::vector<const Patch*>& patches, const Options& options) {
   return work_on_patches(patches, options, convert_patch);

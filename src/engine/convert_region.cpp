@@ -104,17 +104,22 @@ class RegionConverter {
  private:
   Attempt best_of_variants(Attempt best) {
     // Under the lower bound it is the boundary that is poor, and no try changes that.
-    constexpr double kGood = 2.2, kHopeless = 0.1;
+    constexpr double kGood = 2.05, kHopeless = 0.1;
     constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
     const std::size_t size = count_faces(start_, 3);   // fans may have been refined
     std::size_t triangles = size;
     if (!is_small_) return best;
     Worth worth = worth_of(best.mesh);
     if (worth.least < kHopeless) return best;
+    // Usual are 20 to 1000 edits a triangle. Where a boundary is all spikes it may be ten times as many, and no try is better.
+    constexpr std::size_t kEditsPerTriangle = 500;
+    std::size_t edits = best.mesh.edits();
     for (const Options& options : variants_of(options_)) {
       triangles += size;
       if (triangles > options_.retry_triangles || worth.sum() > kGood) break;
+      if (edits > kEditsPerTriangle * options_.retry_triangles) break;
       Attempt other = attempt(options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
+      edits += other.mesh.edits();
       const Worth others = worth_of(other.mesh);
       if (!other.fault.empty() || others.sum() <= worth.sum()) continue;
       best = std::move(other);

@@ -3,7 +3,6 @@
 #include "engine/overlap.hpp"
 #include "engine/prepare.hpp"
 #include "engine/surface.hpp"
-#include "parallel/for_each.hpp"
 #include "qmorph/convert.hpp"
 
 namespace qmorph {
@@ -62,11 +61,7 @@ QuadMesh improve_patch(const Patch& patch, const Options& options) {
 
 }  // namespace
 
-QuadMesh improve(const Patch& patch, const Options& options) {
-  QuadMesh mesh;
-  parallel::with_threads(options.threads, [&] { mesh = improve_patch(patch, options); });
-  return mesh;
-}
+QuadMesh improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
 
 std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options) {
   return work_on_patches(patches, options, improve_patch);

@@ -66,8 +66,14 @@ QuadMesh work_on_regions(const Surface& surface, const Options& options, const W
   return mesh;
 }
 
+QuadMesh work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
+  QuadMesh mesh;
+  parallel::with_threads(options.threads, [&] { mesh = work(patch, options); });
+  return mesh;
+}
+
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
-                                     const std::function<QuadMesh(const Patch&, const Options&)>& work) {
+                                     const PatchWork& work) {
   using Clock = std::chrono::steady_clock;
   const auto weight = [](const Patch& patch) { return double(patch.triangles.size() + 2 * patch.quads.size()); };
   double total = 0;

@@ -32,8 +32,14 @@ using Work = std::function<kernel::Mesh(std::size_t region, const Options& optio
 /// `Options::measure_stages`.
 QuadMesh work_on_regions(const Surface& surface, const Options& options, const Work& work);
 
+/// Makes a patch into quads.
+using PatchWork = std::function<QuadMesh(const Patch& patch, const Options& options)>;
+
+/// `work` on one patch, on the threads that the options allow.
+QuadMesh work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);
+
 /// `work` on each patch, side by side.
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
-                                     const std::function<QuadMesh(const Patch&, const Options&)>& work);
+                                     const PatchWork& work);
 
 }  // namespace qmorph
