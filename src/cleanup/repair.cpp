@@ -1,6 +1,7 @@
 #include "cleanup/repair.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "cleanup/transaction.hpp"
 #include "smoothing/untangle.hpp"
@@ -13,12 +14,15 @@ constexpr int kPasses = 3;
 constexpr int kLeastGain = -6;
 constexpr int kMostCandidates = 16;
 constexpr int kRings = 2;
+/// A corner of an element that the boundary keeps nearer to straight than to right is bad, whatever its sine.
+constexpr double kStrained = 135 * std::numbers::pi / 180;
 /// Of the changes that are kept, nearly all are valid at once; none was seen that took more than eleven sweeps.
 constexpr int kUntanglingSweeps = 12;
 
 /// A repair has to pay: a slightly better corner is not worth irregular nodes.
 bool is_clearly_better(const Worth& before, const Worth& after) {
-  constexpr double kFactor = 1.5, kStep = 0.1;
+  constexpr double kFactor = 1.5, kStep = 0.1, kFair = 0.3;
+  if (before.worst > kFair) return after.worst > before.worst + kStep;
   return after.worst > kFactor * before.worst && after.worst > before.worst + std::min(kStep, before.worst);
 }
 
@@ -42,9 +46,18 @@ class Repair {
  private:
   bool is_bad(Index f) const {
     if (!mesh_.is_live_face(f) || mesh_.degree(f) != 4) return false;
-    if (mesh_.smallest_sine(f) >= relaxing_.target_quality) return false;
+    if (mesh_.smallest_sine(f) >= relaxing_.target_quality && !is_at_strained_corner(f)) return false;
     const std::vector<Index> nodes = topology::nodes_of(mesh_, f);
     return std::none_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh_.valence(v) > kMostValence; });
+  }
+
+  /// Too few quads share the angle of a corner of the boundary, so that no smoothing can help them.
+  bool is_at_strained_corner(Index f) const {
+    const std::vector<Index> nodes = topology::nodes_of(mesh_, f);
+    return std::any_of(nodes.begin(), nodes.end(), [&](Index v) {
+      return mesh_.is_boundary(v) && score_.excess(v) < 0 &&
+             score_.inside_angle(v) > kStrained * double(mesh_.valence(v) - 1);
+    });
   }
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }

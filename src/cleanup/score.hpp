@@ -14,6 +14,8 @@ class Score {
   /// Edges that should meet at v: 4 inside, on the boundary one more than the quads that share its angle evenly,
   /// round(angle / 90 degrees) but at least 1. Design section 5.
   int ideal(Index v) const;
+  /// At a node of the boundary: the angle of the inside, in (0, 2 pi].
+  double inside_angle(Index v) const;
   int excess(Index v) const { return int(mesh_.valence(v)) - ideal(v); }
   /// Gain (positive: better) of a change of v's valence by `by`.
   int gain(Index v, int by) const {
