@@ -94,6 +94,9 @@ struct Options {
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
   /// take no more triangles than this; the best result counts. 0: never.
   std::size_t retry_triangles = 2000;
+  /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the end; not if
+  /// it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0: never.
+  std::size_t part_triangles = 120'000;
   /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
   bool check_each_step = false;
   bool measure_stages = false;  ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage

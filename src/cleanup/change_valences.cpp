@@ -1,6 +1,7 @@
 #include "cleanup/change_valences.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cleanup/node_queue.hpp"
 #include "cleanup/transaction.hpp"
@@ -20,8 +21,8 @@ class ChangingValences {
     relaxing_.untangling_sweeps = 8;  // a change that needs more is no improvement
   }
 
-  std::size_t run() {
-    for (Index v = 0; v < mesh_.vertex_slots(); ++v) enqueue(v);
+  std::size_t run(const std::vector<Index>& nodes) {
+    for (Index v : nodes) enqueue(v);
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
     while (!queue_.empty() && most-- > 0) {
       const Index v = queue_.pop();
@@ -76,7 +77,13 @@ class ChangingValences {
 }  // namespace
 
 std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
-  return ChangingValences(mesh, smoothing).run();
+  std::vector<Index> nodes(mesh.vertex_slots());
+  std::iota(nodes.begin(), nodes.end(), Index(0));
+  return change_valences_near(mesh, smoothing, nodes);
+}
+
+std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes) {
+  return ChangingValences(mesh, smoothing).run(nodes);
 }
 
 }  // namespace qmorph::cleanup

@@ -1,6 +1,8 @@
 #pragma once
 /// Cleanup by score: the local changes of operations.hpp. Design section 5.
 
+#include <vector>
+
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -10,5 +12,8 @@ namespace qmorph::cleanup {
 /// kept only if the elements around are valid and good enough after a guarded relaxation. Boundary, fixed nodes
 /// and parity stay. Returns the number of changes. Cost: linear.
 std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+
+/// The same, but that it begins with these nodes alone.
+std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

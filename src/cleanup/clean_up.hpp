@@ -1,6 +1,8 @@
 #pragma once
 /// Topological cleanup: fewer irregular nodes, better corners. Design section 5.
 
+#include <vector>
+
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -10,5 +12,8 @@ namespace qmorph::cleanup {
 /// elements around are valid and good enough after a guarded relaxation. Boundary, fixed nodes and parity stay.
 /// Returns the number of changes. Cost: linear.
 std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+
+/// The same, but that it begins with the irregular nodes among these alone; bands are left as they are.
+std::size_t clean_up_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

@@ -64,9 +64,10 @@ class Filler {
   /// A strip one edge high becomes quads.
   bool cells(Index h, int count) {
     for (; count > 1; --count) {
-      const Index edge = path(mesh_.next(h), mesh_.prev(mesh_.prev(h)), {});
+      // The cell is the new face: the cost is that of its sides, not of the strip's.
+      const Index edge = path(mesh_.prev(mesh_.prev(h)), mesh_.next(h), {});
       if (edge == kNone) return false;
-      h = mesh_.next(Mesh::twin(edge));
+      h = mesh_.next(edge);
     }
     return true;
   }

@@ -1,6 +1,7 @@
 #include "cleanup/replace_cavities.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "cleanup/cavity.hpp"
 #include "cleanup/element_size.hpp"
@@ -18,6 +19,13 @@ constexpr int kRings = 1;
 
 constexpr double kFloor = 0.4;
 
+/// To try a filling of a large cavity is dear, and only those have a chance whose corners are where the outline turns.
+constexpr std::size_t kLargeCavity = 4000;
+constexpr double kMostMisfit = 0.02;  ///< a corner of 65 degrees has as much
+bool has_chance(const Cavity& cavity, const FillingChoice& choice, int tries) {
+  return tries <= kMostTries && (cavity.faces().size() <= kLargeCavity || (tries == 1 && choice.misfit < kMostMisfit));
+}
+
 /// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower before), and
 /// the mean hardly.
 bool is_good_enough(const Worth& before, const Worth& after) {
@@ -33,29 +41,29 @@ class Replacing {
     relaxing_.untangling_sweeps = 8;  // a filling that needs more does not fit
   }
 
-  std::size_t run() {
-    for (Index v = 0; v < mesh_.vertex_slots(); ++v) enqueue(v);
+  void run(const std::vector<Index>& nodes) {
+    for (Index v : nodes) enqueue(v);
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
     while (!queue_.empty() && most-- > 0) {
       const Index v = queue_.pop();
       if (is_defect(v)) improve(v);
     }
-    replace_all();
-    return changes_;
   }
 
- private:
   /// A region with three to five sides may have a filling as a whole, which no cavity inside can find.
-  void replace_all() {
+  bool replace_all() {
     constexpr double kUniform = 1.6;  // a filling does not know of sizes inside
     const auto is_better = [](const Worth& before, const Worth& after) {
       return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean;
     };
     bool defects = false;
     for (Index v = 0; v < mesh_.vertex_slots() && !defects; ++v) defects = is_defect(v);
-    if (defects && size_.is_uniform(kUniform) && cavity_.start_with_all()) replace(is_better);
+    return defects && size_.is_uniform(kUniform) && cavity_.start_with_all() && replace(is_better);
   }
 
+  std::size_t changes() const { return changes_; }
+
+ private:
   bool is_defect(Index v) const { return mesh_.is_live_vertex(v) && mesh_.is_free(v) && score_.excess(v) != 0; }
 
   void enqueue(Index v) {
@@ -86,7 +94,7 @@ class Replacing {
     int tries = 0;
     for (const FillingChoice& choice :
          choose_fillings(mesh_, score_, cavity_, cost - 1, size_.quads_wanted(cavity_.faces()))) {
-      if (++tries > kMostTries) return false;
+      if (!has_chance(cavity_, choice, ++tries)) return false;
       const auto edit = [&](std::vector<Index>& nodes) {
         return fill(mesh_, cavity_.outline(), cavity_.faces(), choice.filling, nodes);
       };
@@ -113,7 +121,19 @@ class Replacing {
 }  // namespace
 
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
-  return Replacing(mesh, smoothing).run();
+  std::vector<Index> nodes(mesh.vertex_slots());
+  std::iota(nodes.begin(), nodes.end(), Index(0));
+  Replacing replacing(mesh, smoothing);
+  replacing.run(nodes);
+  replacing.replace_all();
+  return replacing.changes();
+}
+
+std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
+                                  const std::vector<Index>& nodes) {
+  Replacing replacing(mesh, smoothing);
+  replacing.run(nodes);
+  return replacing.changes();
 }
 
 }  // namespace qmorph::cleanup

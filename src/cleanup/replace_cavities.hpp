@@ -1,6 +1,8 @@
 #pragma once
 /// Irregular nodes that cancel each other over a distance: a disc of quads around them is replaced as a whole.
 
+#include <vector>
+
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -10,5 +12,8 @@ namespace qmorph::cleanup {
 /// in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so do
 /// boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+
+/// The same, but that it begins with these nodes alone, and never replaces the region as a whole.
+std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

@@ -4,6 +4,7 @@
 
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
+#include "engine/parts/convert_parts.hpp"
 #include "engine/prepare.hpp"
 #include "qmorph/error.hpp"
 #include "smoothing/corner_energy.hpp"
@@ -91,6 +92,7 @@ class RegionConverter {
   Attempt run() {
     std::string fault = find_needles(start_, plane_);
     if (fault.empty()) {
+      if (auto parts = attempt_in_parts(); parts && parts->fault.empty()) return std::move(*parts);
       Attempt first = attempt(options_, true);
       if (first.fault.empty()) return best_of_variants(std::move(first));
       fault = first.fault;
@@ -134,7 +136,7 @@ class RegionConverter {
     if (is_small_) final.smoothing.good_quality = std::min(Worth::kGoodEnough, options.smoothing.good_quality);
     Pipeline pipeline(final, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
     if (with_front)
-      if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film));
+      if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film, plane_));
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = "too many elements";
       return result;
@@ -146,19 +148,23 @@ class RegionConverter {
     return result;
   }
 
+  /// Nothing if the region is not large.
+  std::optional<Attempt> attempt_in_parts() {
+    Attempt result{{}, before_, {}, {}};
+    auto mesh = convert_in_parts(start_, input_, plane_, options_, result.stats,
+                                 options_.measure_stages ? &result.snapshots : nullptr);
+    if (!mesh) return {};
+    result.mesh = std::move(*mesh);
+    result.fault = find_fault(result.mesh, region_, plane_);
+    return result;
+  }
+
   /// Raises more corners than those that are not good enough, if the others do not lose more by it.
   static void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
     if (smoothing.method != SmoothingMethod::shape_energy) return;
     kernel::Mesh raised = mesh;
     smoothing::raise_worst_corners(raised, smoothing);
     if (worth_of(raised).sum() > worth_of(mesh).sum()) mesh = std::move(raised);
-  }
-
-  std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film) const {
-    for (Eigen::Vector3d* axis : {&film->axis_u, &film->axis_v})
-      *axis = axis->x() * plane_.axis_u + axis->y() * plane_.axis_v;
-    film->origin = plane_.to_space(film->origin.head<2>());
-    return film;
   }
 
   const Region& region_;

@@ -10,6 +10,7 @@
 #include "smoothing/corner_energy.hpp"
 #include "smoothing/grid.hpp"
 #include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
 
 namespace qmorph {
 
@@ -57,6 +58,11 @@ std::shared_ptr<Film> Pipeline::advance_front(kernel::Mesh& mesh) {
 }
 
 void Pipeline::finish(kernel::Mesh& mesh) {
+  clean(mesh);
+  polish(mesh);
+}
+
+void Pipeline::clean(kernel::Mesh& mesh) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving);
   end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
@@ -71,6 +77,33 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   cleanup::clean_up(mesh, options_.smoothing);
   cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing);
   end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
+}
+
+void Pipeline::remove_doublet(kernel::Mesh& mesh, Index v) const {
+  if (!mesh.is_live_vertex(v) || !mesh.is_free(v) || mesh.valence(v) != 2) return;
+  constexpr int kRings = 2;
+  std::vector<Index> nodes{v};
+  mesh.begin();
+  topology::remove_doublets(mesh, nodes);
+  smoothing::smooth_near(mesh, options_.smoothing, nodes, kRings) ? mesh.commit() : mesh.rollback();
+}
+
+void Pipeline::clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface) {
+  constexpr int kRings = 4;
+  mesh.check_commits(kChecksAlways || options_.check_each_step);
+  for (Index v : interface) remove_doublet(mesh, v);
+  std::vector<Index> nodes = interface;
+  for (Index f : topology::grow(mesh, topology::faces_around(mesh, nodes), kRings))
+    for (Index v : topology::nodes_of(mesh, f)) nodes.push_back(v);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
+  smoothing::smooth_near(mesh, options_.smoothing, nodes, 0);
+  cleanup::clean_up_near(mesh, options_.smoothing, nodes);
+  end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
+}
+
+void Pipeline::polish(kernel::Mesh& mesh) {
   progress("smoothing", 0.8);
   smoothing::smooth(mesh, options_.smoothing);
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
@@ -87,6 +120,13 @@ void Pipeline::finish(kernel::Mesh& mesh) {
     smoothing::raise_worst_corners(mesh, options_.smoothing);
   progress("smoothing", 1);
   end_stage(Stage::repair, mesh, stats_.cleanup_seconds);
+}
+
+std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film, const Plane& plane) {
+  for (Eigen::Vector3d* axis : {&film->axis_u, &film->axis_v})
+    *axis = axis->x() * plane.axis_u + axis->y() * plane.axis_v;
+  film->origin = plane.to_space(film->origin.head<2>());
+  return film;
 }
 
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {

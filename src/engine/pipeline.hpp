@@ -28,7 +28,14 @@ class Pipeline {
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 
+  /// finish() is clean() and polish(). In between, parts that were cleaned side by side may be joined; then irregular nodes near their
+  /// interfaces cancel.
+  void clean(kernel::Mesh& mesh);
+  void clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface);
+  void polish(kernel::Mesh& mesh);
+
  private:
+  void remove_doublet(kernel::Mesh& mesh, Index v) const;
   /// `share` of all stages together; how they compare was measured.
   void progress(std::string_view stage, double share) const;
   /// Adds the time since the stage before to `seconds`.
@@ -39,6 +46,9 @@ class Pipeline {
   Snapshots* snapshots_;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// A film of the plane, turned into where the plane lies.
+std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film, const Plane& plane);
 
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree);
 

@@ -9,11 +9,18 @@
 namespace qmorph::kernel {
 namespace {
 
+/// Corners of a face that may have kNone for the last one.
+template <std::size_t N>
+Index corners_of(const std::array<Index, N>& face) {
+  return face[N - 1] == kNone ? N - 1 : N;
+}
+
 /// Where the half-edges of each vertex start in an array sorted by origin: a counting sort.
-std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::array<Index, 3>>& triangles) {
+template <std::size_t N>
+std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::array<Index, N>>& faces) {
   std::vector<Index> start(vertices + 1, 0);
-  for (const auto& t : triangles)
-    for (Index v : t) ++start[v + 1];
+  for (const auto& face : faces)
+    for (Index i = 0; i < corners_of(face); ++i) ++start[face[i] + 1];
   for (Index v = 0; v < vertices; ++v) start[v + 1] += start[v];
   return start;
 }
@@ -60,23 +67,36 @@ double smallest_sine_of(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2&
 
 Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 3>>& triangles,
            const std::vector<bool>& open) {
+  vertices_.resize(points.size());
+  for (Index v = 0; v < points.size(); ++v) vertices_[v].point = points[v];
+  build(triangles, open);
+}
+
+Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 4>>& faces,
+           const std::vector<bool>& open) {
+  vertices_.resize(points.size());
+  for (Index v = 0; v < points.size(); ++v) vertices_[v].point = points[v];
+  build(faces, open);
+}
+
+template <std::size_t N>
+void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open) {
   const auto is_open = [&](std::size_t side) { return side < open.size() && open[side]; };
-  const auto vertices = Index(points.size());
-  vertices_.resize(vertices);
-  for (Index v = 0; v < vertices; ++v) vertices_[v].point = points[v];
-  faces_.resize(triangles.size());
-  half_edges_.reserve(triangles.size() * 3 + 64);
+  faces_.resize(faces.size());
+  half_edges_.reserve(faces.size() * N + 64);
 
   // Half-edges of each origin, to find the other half of an edge among a handful.
-  const std::vector<Index> start = offsets_by_origin(vertices, triangles);
+  const std::vector<Index> start = offsets_by_origin(vertex_slots(), faces);
   std::vector<Index> fill(start.begin(), start.end() - 1);
-  std::vector<std::pair<Index, Index>> leaving(triangles.size() * 3);  // (target, half-edge)
-  for (Index f = 0; f < triangles.size(); ++f) {
-    std::array<Index, 3> h{};
-    for (int i = 0; i < 3; ++i) {
-      const Index a = triangles[f][i], b = triangles[f][(i + 1) % 3];
+  std::vector<std::pair<Index, Index>> leaving(start.back());  // (target, half-edge)
+  for (Index f = 0; f < faces.size(); ++f) {
+    const Index degree = corners_of(faces[f]);
+    std::array<Index, N> h{};
+    for (Index i = 0; i < degree; ++i) {
+      const Index a = faces[f][i], b = faces[f][(i + 1) % degree];
+      const bool stays_open = is_open(N * f + i);
       h[i] = kNone;
-      for (Index k = start[b]; k < fill[b] && !is_open(3 * f + i); ++k)
+      for (Index k = start[b]; k < fill[b] && !stays_open; ++k)
         if (leaving[k].first == a) h[i] = twin(leaving[k].second);
       if (h[i] == kNone) {
         h[i] = Index(half_edges_.size());
@@ -84,15 +104,15 @@ Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 
         half_edges_[h[i]].origin = a;
         half_edges_[h[i] ^ 1].origin = b;
       }
-      leaving[fill[a]++] = {is_open(3 * f + i) ? kNone : b, h[i]};
+      leaving[fill[a]++] = {stays_open ? kNone : b, h[i]};
       vertices_[a].out = h[i];
     }
-    for (int i = 0; i < 3; ++i) {
+    for (Index i = 0; i < degree; ++i) {
       half_edges_[h[i]].face = f;
-      half_edges_[h[i]].next = h[(i + 1) % 3];
-      half_edges_[h[i]].prev = h[(i + 2) % 3];
+      half_edges_[h[i]].next = h[(i + 1) % degree];
+      half_edges_[h[i]].prev = h[(i + degree - 1) % degree];
     }
-    faces_[f] = {h[0], 3};
+    faces_[f] = {h[0], degree};
   }
   for (Index h = 0; h < half_edges_.size(); ++h)
     if (half_edges_[h].face == kNone) vertices_[half_edges_[h].origin].out = h;

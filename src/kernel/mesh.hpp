@@ -38,6 +38,8 @@ class Mesh {
   /// (from corner i of triangle t to the next) is not joined to another where `open` says so.
   Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 3>>& triangles,
        const std::vector<bool>& open = {});
+  /// The same from quads and triangles; a triangle's last corner is kNone. Sides are 4 * f + i.
+  Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 4>>& faces, const std::vector<bool>& open);
 
   // --- navigation -----------------------------------------------------------------------------------
   static Index twin(Index h) { return h ^ 1; }
@@ -146,6 +148,8 @@ class Mesh {
   void check_commits(bool on) { checks_commits_ = on; }
 
  private:
+  template <std::size_t N>
+  void build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open);
   void check_touched() const;
   HalfEdge& edit_half_edge(Index h);
   Vertex& edit_vertex(Index v);

@@ -1,0 +1,76 @@
+#include "engine/parts/convert_parts.hpp"
+
+#include "engine/parts/divide.hpp"
+#include "engine/parts/join.hpp"
+#include "parallel/for_each.hpp"
+#include "parallel/shared_progress.hpp"
+
+namespace qmorph {
+namespace {
+
+/// What one part becomes.
+struct PartResult {
+  kernel::Mesh mesh;
+  ConversionStats stats;
+  Snapshots snapshots;
+};
+
+PartResult work_on_part(const Region& part, const Plane& plane, const Options& options) {
+  PartResult result{kernel::Mesh(part.points, part.triangles, part.open), {}, {}};
+  for (Index v : part.fixed) result.mesh.set_fixed(v);
+  Pipeline pipeline(options, result.stats, options.measure_stages ? &result.snapshots : nullptr, result.mesh);
+  if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film, plane));
+  pipeline.clean(result.mesh);
+  return result;
+}
+
+std::vector<PartResult> work_on_parts(const std::vector<Region>& parts, const Plane& plane, const Options& options) {
+  std::vector<PartResult> results(parts.size());
+  std::size_t triangles = 0;
+  for (const Region& part : parts) triangles += part.triangles.size();
+  const parallel::SharedProgress shared(options.progress, double(triangles));
+  std::vector<parallel::Progress> progress;
+  for (const Region& part : parts) progress.push_back(shared.part(double(part.triangles.size())));
+  parallel::for_each_index(parts.size(), [&](std::size_t i) {
+    Options own = options;
+    own.progress = progress[i];
+    results[i] = work_on_part(parts[i], plane, own);
+  });
+  return results;
+}
+
+kernel::Mesh join_stage(const Whole& whole, const std::vector<Region>& parts, const std::vector<PartResult>& results,
+                        Stage stage) {
+  std::vector<const kernel::Mesh*> meshes;
+  for (const PartResult& result : results) meshes.push_back(&*result.snapshots[std::size_t(stage)]);
+  return join(whole, parts, meshes);
+}
+
+}  // namespace
+
+std::optional<kernel::Mesh> convert_in_parts(const kernel::Mesh& start, const kernel::Mesh& input, const Plane& plane,
+                                             const Options& options, ConversionStats& stats, Snapshots* snapshots) {
+  if (options.part_triangles == 0 || 2 * count_faces(start, 3) < 3 * options.part_triangles) return {};
+  kernel::Mesh divided = start;
+  const Division division = divide(divided, options.part_triangles);
+  if (division.parts < 2) return {};
+  const std::vector<Region> parts = take_apart(divided, division);
+  const Whole whole(divided, division);
+  divided = {};
+
+  std::vector<PartResult> results = work_on_parts(parts, plane, options);
+  std::vector<const kernel::Mesh*> meshes;
+  for (const PartResult& result : results) meshes.push_back(&result.mesh), stats.add(result.stats);
+  kernel::Mesh mesh = join(whole, parts, meshes);
+  for (PartResult& result : results) result.mesh = {};
+
+  Pipeline pipeline(options, stats, snapshots, input);
+  if (snapshots)
+    for (Stage stage : {Stage::front, Stage::elimination, Stage::smoothing})
+      (*snapshots)[std::size_t(stage)] = join_stage(whole, parts, results, stage);
+  pipeline.clean_near(mesh, division.interface);
+  pipeline.polish(mesh);
+  return mesh;
+}
+
+}  // namespace qmorph

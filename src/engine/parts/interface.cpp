@@ -1,0 +1,149 @@
+#include "engine/parts/interface.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
+
+namespace qmorph {
+namespace {
+
+using kernel::Mesh;
+
+constexpr int kSweeps = 12;
+constexpr int kRings = 2;  ///< around an interface that make room
+/// A move may not leave triangles with a smaller sine, unless they were worse before.
+constexpr double kFloor = 0.35;
+constexpr int kHalvings = 3;
+
+/// Where the interface through v is straight; v itself if that cannot be said. Where three interfaces or more meet, the two
+/// that are most nearly opposite are one line.
+Vec2 straight_position(const Mesh& mesh, const Division& division, Index v) {
+  const Vec2& p = mesh.point(v);
+  std::vector<Vec2> ends;
+  Index h = mesh.out(v);
+  do {
+    if (division.is_interface(mesh, h)) ends.push_back(mesh.point(mesh.target(h)));
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  double least = 1;
+  Vec2 middle = p;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const double cosine = (ends[i] - p).normalized().dot((ends[k] - p).normalized());
+      if (cosine < least) least = cosine, middle = 0.5 * (ends[i] + ends[k]);
+    }
+  return middle;
+}
+
+void move_towards(Mesh& mesh, Index v, const Vec2& goal) {
+  const Vec2 start = mesh.point(v);
+  const double floor = std::min(kFloor, mesh.smallest_sine_around(v));
+  double share = 1;
+  for (int i = 0; i <= kHalvings; ++i, share /= 2) {
+    mesh.set_point(v, start + share * (goal - start));
+    if (mesh.smallest_sine_around(v) >= floor) return;
+  }
+  mesh.set_point(v, start);
+}
+
+/// Free nodes within some rings of the given ones, without them.
+std::vector<Index> nodes_around(const Mesh& mesh, const std::vector<Index>& nodes) {
+  std::vector<Index> around = nodes;
+  for (int ring = 0; ring < kRings; ++ring) {
+    for (std::size_t i = 0, count = around.size(); i < count; ++i) {
+      Index h = mesh.out(around[i]);
+      do {
+        around.push_back(mesh.target(h));
+        h = mesh.rotate_ccw(h);
+      } while (h != mesh.out(around[i]));
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+  }
+  std::erase_if(around, [&](Index v) { return std::binary_search(nodes.begin(), nodes.end(), v); });
+  return around;
+}
+
+bool is_on_interface(const Mesh& mesh, const Division& division, Index v) {
+  Index h = mesh.out(v);
+  do {
+    if (division.is_interface(mesh, h)) return true;
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return false;
+}
+
+/// Two triangles become four; the new ones belong to the parts of the old.
+void split_interface_edge(Mesh& mesh, Division& division, Index h) {
+  const Index m = mesh.split_edge(h, 0.5 * (mesh.point(mesh.origin(h)) + mesh.point(mesh.target(h))));
+  for (Index side : {h, Mesh::twin(h)}) {
+    const Index from_m = mesh.origin(side) == m ? side : mesh.next(side);
+    const Index part = division.part[mesh.face(from_m)];
+    const Index d = mesh.split_face(from_m, mesh.next(mesh.next(from_m)));
+    division.part.resize(mesh.face_slots());
+    for (Index half : {d, Mesh::twin(d)}) division.part[mesh.face(half)] = part;
+  }
+}
+
+/// A tree of parts, in which each has a lower one that is its neighbour, and the longest edge between the two.
+struct Tree {
+  std::vector<Index> order;            ///< parts, each after its parent
+  std::vector<Index> parent, longest;  ///< of each part; kNone at the root
+};
+
+Tree span_parts(const Mesh& mesh, const Division& division) {
+  std::vector<std::map<Index, Index>> neighbours(division.parts);  // part -> the longest edge to it
+  for (Index h = 0; h < mesh.half_edge_slots(); ++h) {
+    if (!mesh.is_live_half_edge(h) || !division.is_interface(mesh, h)) continue;
+    auto& longest = neighbours[division.part[mesh.face(h)]];
+    const auto [at, is_new] = longest.emplace(division.part[mesh.face(Mesh::twin(h))], h);
+    if (!is_new && mesh.length(h) > mesh.length(at->second)) at->second = h;
+  }
+  Tree tree{{0}, std::vector<Index>(division.parts, kNone), std::vector<Index>(division.parts, kNone)};
+  for (std::size_t i = 0; i < tree.order.size(); ++i)
+    for (const auto& [part, edge] : neighbours[tree.order[i]]) {
+      if (part == 0 || tree.parent[part] != kNone) continue;
+      tree.parent[part] = tree.order[i], tree.longest[part] = edge;
+      tree.order.push_back(part);
+    }
+  return tree;
+}
+
+std::vector<char> odd_parts(const Mesh& mesh, const Division& division) {
+  std::vector<char> odd(division.parts, 0);
+  for (Index h = 0; h < mesh.half_edge_slots(); ++h) {
+    if (!mesh.is_live_half_edge(h) || mesh.face(h) == kNone) continue;
+    if (mesh.is_boundary_edge(h) || division.is_interface(mesh, h)) odd[division.part[mesh.face(h)]] ^= 1;
+  }
+  return odd;
+}
+
+}  // namespace
+
+void straighten_interfaces(Mesh& mesh, const Division& division, const std::vector<Index>& nodes) {
+  const std::vector<Index> around = nodes_around(mesh, nodes);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (Index v : nodes)
+      if (mesh.is_free(v)) move_towards(mesh, v, straight_position(mesh, division, v));
+    for (Index v : around)
+      if (mesh.is_free(v) && !is_on_interface(mesh, division, v)) smoothing::relax_node(mesh, v);
+  }
+}
+
+void finish_interfaces(Mesh& mesh, Division& division) {
+  const Tree tree = span_parts(mesh, division);
+  std::vector<char> odd = odd_parts(mesh, division);
+  for (std::size_t i = tree.order.size(); i-- > 1;) {
+    const Index part = tree.order[i];
+    if (!odd[part]) continue;
+    split_interface_edge(mesh, division, tree.longest[part]);
+    odd[tree.parent[part]] ^= 1;
+  }
+  for (Index v = 0; v < mesh.vertex_slots(); ++v)
+    if (mesh.is_live_vertex(v) && is_on_interface(mesh, division, v)) division.interface.push_back(v);
+  straighten_interfaces(mesh, division, division.interface);
+}
+
+}  // namespace qmorph
