@@ -82,7 +82,8 @@ std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothin
   return change_valences_near(mesh, smoothing, nodes);
 }
 
-std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes) {
+std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
+                                 const std::vector<Index>& nodes) {
   return ChangingValences(mesh, smoothing).run(nodes);
 }
 

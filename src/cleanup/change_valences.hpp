@@ -14,6 +14,7 @@ namespace qmorph::cleanup {
 std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
 
 /// The same, but that it begins with these nodes alone.
-std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes);
+std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
+                                 const std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

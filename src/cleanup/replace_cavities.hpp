@@ -14,6 +14,7 @@ namespace qmorph::cleanup {
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
 
 /// The same, but that it begins with these nodes alone, and never replaces the region as a whole.
-std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes);
+std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
+                                  const std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

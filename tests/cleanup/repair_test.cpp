@@ -68,7 +68,8 @@ TEST_CASE("repair: a third quad shares a corner of the boundary that keeps two n
   CHECK(count_quads(mesh) == count(mesh).faces);
 }
 
-TEST_CASE("repair: two quads share a corner of the boundary that leaves them well-shaped, irregular nodes are not made") {
+TEST_CASE(
+    "repair: two quads share a corner of the boundary that leaves them well-shaped, irregular nodes are not made") {
   Mesh mesh = outside_of_wedge(230 * kDegree, 8);
   REQUIRE(mesh.valence(0) == 3);
   CHECK(cleanup::repair(mesh, {}) == 0);

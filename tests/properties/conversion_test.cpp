@@ -81,6 +81,24 @@ TEST_CASE("nasty domains convert without breaking an invariant") {
   }
 }
 
+TEST_CASE("random domains in small parts convert without breaking an invariant, to the same bytes on one thread and two") {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Domain domain = random_domain(seed);
+    qmorph::Options options = options_for(seed);
+    options.part_triangles = 30 + seed % 200;
+    options.threads = 1;
+    QuadMesh first, second;
+    auto broken = broken_conversion(domain.patch, &first, options);
+    options.threads = 2;
+    if (broken.empty()) broken = broken_conversion(domain.patch, &second, options);
+    if (broken.empty() && !same_bytes(first, second)) broken.push_back("two threads make another mesh than one");
+    if (broken.empty()) continue;
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    FAIL_CHECK(broken.front());
+  }
+}
+
 TEST_CASE("random domains: those that once were refused, or took very long, convert") {
   for (const std::uint64_t seed : {1144, 1526, 3827, 4193, 5229, 5282, 9161}) {
     const auto broken = broken_conversion(random_domain(seed).patch, nullptr, options_for(seed));

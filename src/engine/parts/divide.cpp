@@ -89,9 +89,8 @@ class Dividing {
   void even_out(Index part, const std::vector<Index>& faces) {
     const auto is_tooth = [&](Index f) {
       int others = 0;
-      for_each_side(f, [&](Index h) {
-        others += part_beyond(h) == part && other_[mesh_.face(Mesh::twin(h))] != other_[f];
-      });
+      for_each_side(
+          f, [&](Index h) { others += part_beyond(h) == part && other_[mesh_.face(Mesh::twin(h))] != other_[f]; });
       return others >= 2;
     };
     std::vector<Index> teeth;
@@ -145,7 +144,7 @@ class Dividing {
   Mesh& mesh_;
   const double triangles_;
   Division division_;
-  std::vector<char> other_;  ///< by face: which side of the line
+  std::vector<char> other_;                                    ///< by face: which side of the line
   std::vector<std::pair<Index, std::vector<Index>>> waiting_;  ///< parts that may be too large
 };
 

@@ -9,9 +9,9 @@ namespace qmorph {
 
 /// A mesh of triangles in parts. The edges between two parts are interfaces.
 struct Division {
-  std::vector<Index> part;           ///< of each face; kNone for a dead one
+  std::vector<Index> part;  ///< of each face; kNone for a dead one
   Index parts = 1;
-  std::vector<Index> interface;      ///< nodes on interfaces, ascending
+  std::vector<Index> interface;  ///< nodes on interfaces, ascending
   bool is_interface(const kernel::Mesh& mesh, Index h) const {
     const Index f = mesh.face(h), g = mesh.face(kernel::Mesh::twin(h));
     return f != kNone && g != kNone && part[f] != part[g];
