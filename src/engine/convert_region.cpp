@@ -77,22 +77,14 @@ bool is_small(const Region& region, const Options& options) {
 class RegionConverter {
  public:
   RegionConverter(const Region& region, const Plane& plane, const Options& options, const ConversionStats& before)
-      : region_(region),
-        plane_(plane),
-        options_(options),
-        is_small_(is_small(region, options)),
-        before_(before),
-        start_(region.points, region.triangles, region.open) {
-    for (Index v : region.fixed) start_.set_fixed(v);
-    if (options.measure_stages) input_ = start_;
-    repair_input(start_, plane);
-    grade_fans(start_);
+      : region_(region), plane_(plane), options_(options), is_small_(is_small(region, options)), before_(before) {
+    start();
   }
 
   Attempt run() {
     std::string fault = find_needles(start_, plane_);
     if (fault.empty()) {
-      if (auto parts = attempt_in_parts(); parts && parts->fault.empty()) return std::move(*parts);
+      if (auto parts = attempt_in_parts()) return std::move(*parts);
       Attempt first = attempt(options_, true);
       if (first.fault.empty()) return best_of_variants(std::move(first));
       fault = first.fault;
@@ -104,6 +96,15 @@ class RegionConverter {
   }
 
  private:
+  /// Makes the mesh that the front begins with.
+  void start() {
+    start_ = kernel::Mesh(region_.points, region_.triangles, region_.open);
+    for (Index v : region_.fixed) start_.set_fixed(v);
+    if (options_.measure_stages) input_ = start_;
+    repair_input(start_, plane_);
+    grade_fans(start_);
+  }
+
   Attempt best_of_variants(Attempt best) {
     // Under the lower bound it is the boundary that is poor, and no try changes that.
     constexpr double kGood = 2.05, kHopeless = 0.1;
@@ -148,15 +149,18 @@ class RegionConverter {
     return result;
   }
 
-  /// Nothing if the region is not large.
+  /// Nothing if the region is not large, or has no valid result in parts.
   std::optional<Attempt> attempt_in_parts() {
+    if (!is_large(region_.triangles.size(), options_)) return {};
     Attempt result{{}, before_, {}, {}};
-    auto mesh = convert_in_parts(start_, input_, plane_, options_, result.stats,
+    auto mesh = convert_in_parts(std::move(start_), input_, plane_, options_, result.stats,
                                  options_.measure_stages ? &result.snapshots : nullptr);
-    if (!mesh) return {};
-    result.mesh = std::move(*mesh);
-    result.fault = find_fault(result.mesh, region_, plane_);
-    return result;
+    if (mesh) {
+      result.mesh = std::move(*mesh);
+      if (find_fault(result.mesh, region_, plane_).empty()) return result;
+    }
+    start();
+    return {};
   }
 
   /// Raises more corners than those that are not good enough, if the others do not lose more by it.

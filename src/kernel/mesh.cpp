@@ -83,7 +83,7 @@ template <std::size_t N>
 void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open) {
   const auto is_open = [&](std::size_t side) { return side < open.size() && open[side]; };
   faces_.resize(faces.size());
-  half_edges_.reserve(faces.size() * N + 64);
+  half_edges_.reserve(faces.size() * N + faces.size() / 8 + 64);  // some room, so that edits do not move all at once
 
   // Half-edges of each origin, to find the other half of an edge among a handful.
   const std::vector<Index> start = offsets_by_origin(vertex_slots(), faces);

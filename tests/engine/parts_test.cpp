@@ -93,11 +93,9 @@ TEST_CASE("parts: parts that nobody has worked on are the region again when they
   for (Sample& sample : samples(30, 4 * kPart)) {
     const Division division = divide(sample.mesh, kPart);
     const std::vector<Region> parts = take_apart(sample.mesh, division);
-    std::vector<Mesh> meshes;
-    for (const Region& part : parts) meshes.emplace_back(part.points, part.triangles, part.open);
-    std::vector<const Mesh*> pointers;
-    for (const Mesh& mesh : meshes) pointers.push_back(&mesh);
-    const Mesh joined = join(Whole(sample.mesh, division), parts, pointers);
+    std::vector<PartElements> elements;
+    for (const Region& part : parts) elements.emplace_back(part.node, Mesh(part.points, part.triangles, part.open));
+    const Mesh joined = join(Whole(sample.mesh, division), elements);
     CHECK(defect(joined) == "");
     CHECK(count(joined).faces == count(sample.mesh).faces);
     CHECK(boundary_of(joined) == boundary_of(sample.mesh));

@@ -10,17 +10,19 @@ namespace {
 
 /// What one part becomes.
 struct PartResult {
-  kernel::Mesh mesh;
+  PartElements elements;
   ConversionStats stats;
   Snapshots snapshots;
 };
 
 PartResult work_on_part(const Region& part, const Plane& plane, const Options& options) {
-  PartResult result{kernel::Mesh(part.points, part.triangles, part.open), {}, {}};
-  for (Index v : part.fixed) result.mesh.set_fixed(v);
-  Pipeline pipeline(options, result.stats, options.measure_stages ? &result.snapshots : nullptr, result.mesh);
-  if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film, plane));
-  pipeline.clean(result.mesh);
+  PartResult result;
+  kernel::Mesh mesh(part.points, part.triangles, part.open);
+  for (Index v : part.fixed) mesh.set_fixed(v);
+  Pipeline pipeline(options, result.stats, options.measure_stages ? &result.snapshots : nullptr, mesh);
+  if (const auto film = pipeline.advance_front(mesh)) result.stats.films.push_back(in_space(film, plane));
+  pipeline.clean(mesh);
+  result.elements = PartElements(part.node, mesh);
   return result;
 }
 
@@ -41,28 +43,34 @@ std::vector<PartResult> work_on_parts(const std::vector<Region>& parts, const Pl
 
 kernel::Mesh join_stage(const Whole& whole, const std::vector<Region>& parts, const std::vector<PartResult>& results,
                         Stage stage) {
-  std::vector<const kernel::Mesh*> meshes;
-  for (const PartResult& result : results) meshes.push_back(&*result.snapshots[std::size_t(stage)]);
-  return join(whole, parts, meshes);
+  std::vector<PartElements> elements;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    elements.emplace_back(parts[i].node, *results[i].snapshots[std::size_t(stage)]);
+  return join(whole, elements);
 }
 
 }  // namespace
 
-std::optional<kernel::Mesh> convert_in_parts(const kernel::Mesh& start, const kernel::Mesh& input, const Plane& plane,
+bool is_large(std::size_t triangles, const Options& options) {
+  return options.part_triangles != 0 && 2 * triangles >= 3 * options.part_triangles;
+}
+
+std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::Mesh& input, const Plane& plane,
                                              const Options& options, ConversionStats& stats, Snapshots* snapshots) {
-  if (options.part_triangles == 0 || 2 * count_faces(start, 3) < 3 * options.part_triangles) return {};
-  kernel::Mesh divided = start;
-  const Division division = divide(divided, options.part_triangles);
+  const Division division = divide(start, options.part_triangles);
   if (division.parts < 2) return {};
-  const std::vector<Region> parts = take_apart(divided, division);
-  const Whole whole(divided, division);
-  divided = {};
+  const std::vector<Region> parts = take_apart(start, division);
+  const Whole whole(start, division);
+  start = {};
 
   std::vector<PartResult> results = work_on_parts(parts, plane, options);
-  std::vector<const kernel::Mesh*> meshes;
-  for (const PartResult& result : results) meshes.push_back(&result.mesh), stats.add(result.stats);
-  kernel::Mesh mesh = join(whole, parts, meshes);
-  for (PartResult& result : results) result.mesh = {};
+  std::vector<PartElements> elements;
+  for (PartResult& result : results) {
+    stats.add(result.stats);
+    elements.push_back(std::move(result.elements));
+  }
+  kernel::Mesh mesh = join(whole, elements);
+  elements.clear();
 
   Pipeline pipeline(options, stats, snapshots, input);
   if (snapshots)

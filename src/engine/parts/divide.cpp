@@ -26,6 +26,7 @@ class Dividing {
   Dividing(Mesh& mesh, std::size_t triangles) : mesh_(mesh), triangles_(double(triangles)) {
     division_.part.assign(mesh.face_slots(), kNone);
     other_.assign(mesh.face_slots(), 0);
+    piece_.assign(mesh.face_slots(), kNone);
   }
 
   Division run() {
@@ -47,10 +48,13 @@ class Dividing {
     for (Index f : faces) other_[f] = line.distance(middle_of(mesh_, f)) >= 0;
     even_out(part, faces);
     auto pieces = pieces_of(part, faces);
+    bool any_small = false;
     for (const auto& piece : pieces)
-      if (double(piece.size()) < kSmallShare * double(faces.size()))
+      if (double(piece.size()) < kSmallShare * double(faces.size())) {
+        any_small = true;
         for (Index f : piece) other_[f] = !other_[f];
-    pieces = pieces_of(part, faces);
+      }
+    if (any_small) pieces = pieces_of(part, faces);
     if (pieces.size() < 2) return;
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       for (Index f : pieces[i]) division_.part[f] = division_.parts;
@@ -107,25 +111,29 @@ class Dividing {
     }
   }
 
-  /// What hangs together on either side, in the order of the faces.
-  std::vector<std::vector<Index>> pieces_of(Index part, const std::vector<Index>& faces) const {
-    std::vector<std::vector<Index>> pieces;
-    std::vector<Index> piece_of(mesh_.face_slots(), kNone);
+  /// What hangs together on either side, each in the order of the faces.
+  std::vector<std::vector<Index>> pieces_of(Index part, const std::vector<Index>& faces) {
+    for (Index f : faces) piece_[f] = kNone;
+    Index pieces = 0;
+    std::vector<Index> open;
     for (Index first : faces) {
-      if (piece_of[first] != kNone) continue;
-      std::vector<Index> piece{first};
-      piece_of[first] = Index(pieces.size());
-      for (std::size_t i = 0; i < piece.size(); ++i)
-        for_each_side(piece[i], [&](Index h) {
+      if (piece_[first] != kNone) continue;
+      open.assign(1, first);
+      piece_[first] = pieces;
+      while (!open.empty()) {
+        const Index f = open.back();
+        open.pop_back();
+        for_each_side(f, [&](Index h) {
+          if (part_beyond(h) != part) return;
           const Index g = mesh_.face(Mesh::twin(h));
-          if (part_beyond(h) != part || other_[g] != other_[first] || piece_of[g] != kNone) return;
-          piece_of[g] = Index(pieces.size());
-          piece.push_back(g);
+          if (piece_[g] == kNone && other_[g] == other_[f]) piece_[g] = pieces, open.push_back(g);
         });
-      pieces.push_back(std::move(piece));
+      }
+      ++pieces;
     }
-    for (auto& piece : pieces) std::sort(piece.begin(), piece.end());  // along the Z-curve again
-    return pieces;
+    std::vector<std::vector<Index>> result(pieces);
+    for (Index f : faces) result[piece_[f]].push_back(f);
+    return result;
   }
 
   /// Nodes of the interfaces among these faces.
@@ -145,6 +153,7 @@ class Dividing {
   const double triangles_;
   Division division_;
   std::vector<char> other_;                                    ///< by face: which side of the line
+  std::vector<Index> piece_;                                   ///< by face, of pieces_of()
   std::vector<std::pair<Index, std::vector<Index>>> waiting_;  ///< parts that may be too large
 };
 

@@ -77,33 +77,47 @@ Whole::Whole(const Mesh& mesh, const Division& division) {
   std::sort(interface_edges.begin(), interface_edges.end());
 }
 
-Mesh join(const Whole& whole, const std::vector<Region>& parts, const std::vector<const Mesh*>& meshes) {
+PartElements::PartElements(const std::vector<Index>& node, const Mesh& mesh) {
+  std::vector<Index> row(mesh.vertex_slots(), kNone);
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+    if (!mesh.is_live_vertex(v)) continue;
+    row[v] = Index(points.size());
+    points.push_back(mesh.point(v));
+    vertex.push_back(v < node.size() ? node[v] : kNone);
+  }
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    std::array<Index, 4> face{kNone, kNone, kNone, kNone};
+    Index h = mesh.half_edge(f);
+    for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) {
+      face[i] = row[mesh.origin(h)];
+      boundary.push_back(mesh.is_boundary_edge(h));
+    }
+    faces.push_back(face);
+    boundary.resize(4 * faces.size(), false);
+  }
+}
+
+Mesh join(const Whole& whole, const std::vector<PartElements>& parts) {
   std::vector<Vec2> points = whole.points;
   std::vector<std::array<Index, 4>> faces;
   std::vector<bool> open;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Mesh& mesh = *meshes[i];
-    std::vector<Index> vertex = parts[i].node;
-    vertex.resize(mesh.vertex_slots(), kNone);
-    for (Index v = 0; v < mesh.vertex_slots(); ++v) {
-      if (!mesh.is_live_vertex(v)) continue;
-      if (vertex[v] == kNone) vertex[v] = Index(points.size()), points.emplace_back();
-      points[vertex[v]] = mesh.point(v);
+  const auto is_interface = [&](Index a, Index b) {
+    return std::binary_search(whole.interface_edges.begin(), whole.interface_edges.end(), edge_of(a, b));
+  };
+  for (const PartElements& part : parts) {
+    std::vector<Index> vertex = part.vertex;
+    for (std::size_t i = 0; i < vertex.size(); ++i) {
+      if (vertex[i] == kNone) vertex[i] = Index(points.size()), points.emplace_back();
+      points[vertex[i]] = part.points[i];
     }
-    const auto is_interface = [&](Index h) {
-      const auto edge = edge_of(vertex[mesh.origin(h)], vertex[mesh.target(h)]);
-      return std::binary_search(whole.interface_edges.begin(), whole.interface_edges.end(), edge);
-    };
-    for (Index f = 0; f < mesh.face_slots(); ++f) {
-      if (!mesh.is_live_face(f)) continue;
-      auto& face = faces.emplace_back();
-      face[3] = kNone;
-      Index h = mesh.half_edge(f);
-      for (Index k = 0; k < mesh.degree(f); ++k, h = mesh.next(h)) {
-        face[k] = vertex[mesh.origin(h)];
-        open.push_back(mesh.is_boundary_edge(h) && !is_interface(h));
-      }
-      open.resize(4 * faces.size(), false);
+    for (std::size_t f = 0; f < part.faces.size(); ++f) {
+      std::array<Index, 4> face = part.faces[f];
+      const std::size_t degree = face[3] == kNone ? 3 : 4;
+      for (std::size_t i = 0; i < degree; ++i) face[i] = vertex[face[i]];
+      for (std::size_t i = 0; i < 4; ++i)
+        open.push_back(part.boundary[4 * f + i] && !is_interface(face[i], face[(i + 1) % degree]));
+      faces.push_back(face);
     }
   }
   Mesh mesh(points, faces, open);

@@ -11,6 +11,17 @@ namespace qmorph {
 /// The parts as regions. `Region::node` is the vertex of the mesh; interfaces are boundary.
 std::vector<Region> take_apart(const kernel::Mesh& mesh, const Division& division);
 
+/// What a part has become, without the slots of what it was.
+struct PartElements {
+  std::vector<Vec2> points;
+  std::vector<Index> vertex;                ///< of each point in the whole, or kNone for a new one
+  std::vector<std::array<Index, 4>> faces;  ///< the last corner of a triangle is kNone
+  std::vector<bool> boundary;               ///< side 4 * face + i is boundary of the part
+  /// `node`: as Region::node of the part.
+  PartElements(const std::vector<Index>& node, const kernel::Mesh& mesh);
+  PartElements() = default;
+};
+
 /// What is needed of the divided mesh to put its parts together again.
 struct Whole {
   std::vector<Vec2> points;
@@ -19,8 +30,8 @@ struct Whole {
   Whole(const kernel::Mesh& mesh, const Division& division);
 };
 
-/// The whole with the parts' elements: `meshes[i]` is what `parts[i]` has become. Vertices of the divided mesh keep their numbers.
-/// No node on an interface is left with two neighbours.
-kernel::Mesh join(const Whole& whole, const std::vector<Region>& parts, const std::vector<const kernel::Mesh*>& meshes);
+/// The parts' elements as one mesh. Vertices of the divided mesh keep their numbers. A node on an interface may have two
+/// neighbours only.
+kernel::Mesh join(const Whole& whole, const std::vector<PartElements>& parts);
 
 }  // namespace qmorph
