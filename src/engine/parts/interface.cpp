@@ -75,8 +75,8 @@ bool is_on_interface(const Mesh& mesh, const Division& division, Index v) {
   return false;
 }
 
-/// Two triangles become four; the new ones belong to the parts of the old.
-void split_interface_edge(Mesh& mesh, Division& division, Index h) {
+/// Two triangles become four; the new ones belong to the parts of the old. Returns the new node.
+Index split_interface_edge(Mesh& mesh, Division& division, Index h) {
   const Index m = mesh.split_edge(h, 0.5 * (mesh.point(mesh.origin(h)) + mesh.point(mesh.target(h))));
   for (Index side : {h, Mesh::twin(h)}) {
     const Index from_m = mesh.origin(side) == m ? side : mesh.next(side);
@@ -85,6 +85,25 @@ void split_interface_edge(Mesh& mesh, Division& division, Index h) {
     division.part.resize(mesh.face_slots());
     for (Index half : {d, Mesh::twin(d)}) division.part[mesh.face(half)] = part;
   }
+  return m;
+}
+
+/// v and the nodes that are not more than some steps along interfaces away, ascending.
+std::vector<Index> along_interfaces(const Mesh& mesh, const Division& division, Index v) {
+  constexpr int kSteps = 10;
+  std::vector<Index> nodes{v};
+  for (int step = 0; step < kSteps; ++step)
+    for (std::size_t i = 0, count = nodes.size(); i < count; ++i) {
+      Index h = mesh.out(nodes[i]);
+      do {
+        const Index u = mesh.target(h);
+        if (division.is_interface(mesh, h) && std::find(nodes.begin(), nodes.end(), u) == nodes.end())
+          nodes.push_back(u);
+        h = mesh.rotate_ccw(h);
+      } while (h != mesh.out(nodes[i]));
+    }
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
 }
 
 /// A tree of parts, in which each has a lower one that is its neighbour, and the longest edge between the two.
@@ -138,12 +157,14 @@ void finish_interfaces(Mesh& mesh, Division& division) {
   for (std::size_t i = tree.order.size(); i-- > 1;) {
     const Index part = tree.order[i];
     if (!odd[part]) continue;
-    split_interface_edge(mesh, division, tree.longest[part]);
+    const Index node = split_interface_edge(mesh, division, tree.longest[part]);
+    straighten_interfaces(mesh, division, along_interfaces(mesh, division, node));
     odd[tree.parent[part]] ^= 1;
   }
-  for (Index v = 0; v < mesh.vertex_slots(); ++v)
-    if (mesh.is_live_vertex(v) && is_on_interface(mesh, division, v)) division.interface.push_back(v);
-  straighten_interfaces(mesh, division, division.interface);
+  for (Index h = 0; h < mesh.half_edge_slots(); ++h)
+    if (mesh.is_live_half_edge(h) && division.is_interface(mesh, h)) division.interface.push_back(mesh.origin(h));
+  std::sort(division.interface.begin(), division.interface.end());
+  division.interface.erase(std::unique(division.interface.begin(), division.interface.end()), division.interface.end());
 }
 
 }  // namespace qmorph
