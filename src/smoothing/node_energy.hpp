@@ -22,9 +22,29 @@ struct Energy {
 Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta);
 double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta);
 
-/// Energy of the corners whose shape depends on v, with derivatives with respect to v.
+/// The elements around a node, looked at once, so that the energy at several places costs no walk through the mesh. Of an
+/// element that runs v, q, ..., r the corners at v, q and r depend on v.
+class Star {
+ public:
+  void look_around(const kernel::Mesh& mesh, Index v);
+  /// Energy of the corners whose shape depends on the node, if that is at p.
+  Energy energy_with_derivatives(const Vec2& p) const;
+  /// The same, value only.
+  Energy energy(const Vec2& p) const;
+
+ private:
+  struct Element {
+    Vec2 q;  ///< r is the q of the next
+    Vec2 s;  ///< side that follows q
+    Vec2 t;  ///< side that ends at r, backwards
+  };
+  struct Two;
+  std::vector<Element> elements_;  ///< kept to avoid allocations; with room for the q after the last
+  std::size_t count_ = 0;
+};
+
+/// As Star's, for one place.
 Energy energy_around(const kernel::Mesh& mesh, Index v);
-/// The same, value only, as if v were at p.
 Energy energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p);
 
 }  // namespace qmorph::smoothing

@@ -70,6 +70,33 @@ bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   return false;
 }
 
+/// As below; `star` is scratch space.
+double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
+  if (!mesh.is_live_vertex(v) || !mesh.is_free(v)) return 0;
+  const double edge = mesh.length(mesh.out(v));
+  star.look_around(mesh, v);
+  const Energy energy = star.energy_with_derivatives(mesh.point(v));
+  if (!energy.finite) {
+    // The largest smallest area is not always the largest smallest sine: what was valid has to stay so.
+    const Vec2 before = mesh.point(v);
+    const bool was_valid = mesh.is_valid_star(v);
+    untangle_node(mesh, v);
+    if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
+    return (mesh.point(v) - before).norm() / edge;
+  }
+  const Vec2 start = mesh.point(v), step = direction(energy, edge);
+  constexpr int kHalvings = 4;
+  double share = 1;
+  for (int i = 0; i < kHalvings; ++i, share /= 2) {
+    const Vec2 p = start + share * step;
+    const Energy there = star.energy(p);
+    if (!there.finite || !(there.value < energy.value)) continue;
+    mesh.set_point(v, p);
+    return share * step.norm() / edge;
+  }
+  return 0;
+}
+
 /// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
 ///
 /// The nodes are cut into blocks along a Z-curve. Those whose neighbours are all in the same block, or never move, are moved block by
@@ -123,10 +150,11 @@ class Passes {
   /// True if a node moved.
   bool relax(const std::vector<Index>& nodes) {
     bool any = false;
+    Star star;
     for (Index v : nodes) {
       if (!active_[v]) continue;
       active_[v] = 0;
-      const double moved = relax_node(mesh_, v);
+      const double moved = relax_node(mesh_, v, star);
       if (moved <= options_.move_tolerance) continue;
       any = true;
       wake_around(v);
@@ -163,28 +191,8 @@ class Passes {
 }  // namespace
 
 double relax_node(kernel::Mesh& mesh, Index v) {
-  if (!mesh.is_live_vertex(v) || !mesh.is_free(v)) return 0;
-  const double edge = mesh.length(mesh.out(v));
-  const Energy energy = energy_around(mesh, v);
-  if (!energy.finite) {
-    // The largest smallest area is not always the largest smallest sine: what was valid has to stay so.
-    const Vec2 before = mesh.point(v);
-    const bool was_valid = mesh.is_valid_star(v);
-    untangle_node(mesh, v);
-    if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
-    return (mesh.point(v) - before).norm() / edge;
-  }
-  const Vec2 start = mesh.point(v), step = direction(energy, edge);
-  constexpr int kHalvings = 4;
-  double share = 1;
-  for (int i = 0; i < kHalvings; ++i, share /= 2) {
-    const Vec2 p = start + share * step;
-    const Energy there = energy_at(mesh, v, p);
-    if (!there.finite || !(there.value < energy.value)) continue;
-    mesh.set_point(v, p);
-    return share * step.norm() / edge;
-  }
-  return 0;
+  Star star;
+  return relax_node(mesh, v, star);
 }
 
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
@@ -217,9 +225,10 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });
   if (!std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); }))
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
+  Star star;
   for (int pass = 0; pass < options.iterations; ++pass) {
     double moved = 0;
-    for (Index v : around) moved = std::max(moved, relax_node(mesh, v));
+    for (Index v : around) moved = std::max(moved, relax_node(mesh, v, star));
     if (moved < options.move_tolerance) break;
   }
   for (Index v : around)
