@@ -25,13 +25,17 @@ std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::arra
   return start;
 }
 
-/// As is_triangle_above() for a quad; `least` is the sine's square.
-bool is_above_in(double least, const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+/// As is_triangle_above() for a quad; `least` is the sine's square. The same for all four ways to begin.
+bool is_quad_above(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double least) {
+  using Lanes = Eigen::Array2d;  // two sides or corners, so that the processor works on both at once
   const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
-  const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = cd.squaredNorm(), l4 = da.squaredNorm();
-  const double at_a = cross(da, ab), at_b = cross(ab, bc), at_c = cross(bc, cd), at_d = cross(cd, da);
-  return at_a > 0 && at_b > 0 && at_c > 0 && at_d > 0 && at_a * at_a > least * l4 * l1 &&
-         at_b * at_b > least * l1 * l2 && at_c * at_c > least * l2 * l3 && at_d * at_d > least * l3 * l4;
+  const Lanes x1{ab.x(), cd.x()}, y1{ab.y(), cd.y()}, x2{bc.x(), da.x()}, y2{bc.y(), da.y()};
+  const Lanes x3{cd.x(), ab.x()}, y3{cd.y(), ab.y()};
+  const Lanes l1 = x1 * x1 + y1 * y1, l2 = x2 * x2 + y2 * y2, l3{l1[1], l1[0]};
+  const Lanes at_bd = x1 * y2 - y1 * x2, at_ca = x2 * y3 - y2 * x3;
+  const Lanes bd = at_bd * at_bd.abs(), ca = at_ca * at_ca.abs();  // squares, negative where the corner is
+  const Lanes least_bd = least * l1 * l2, least_ca = least * l2 * l3;
+  return bd[0] > least_bd[0] && bd[1] > least_bd[1] && ca[0] > least_ca[0] && ca[1] > least_ca[1];
 }
 
 /// sign(area) area^2 / product: a squared sine with the sign of the sine.
@@ -144,20 +148,14 @@ Index Mesh::find(Index a, Index b) const {
 
 bool Mesh::is_valid_face(Index f) const { return is_above(f, degree(f) == 3 ? kDegenerateSine : kStraightSine); }
 
-bool Mesh::is_valid_star(Index v) const {
-  Index h = out(v);
-  do {
-    if (face(h) != kNone && !is_valid_face(face(h))) return false;
-    h = rotate_ccw(h);
-  } while (h != out(v));
-  return true;
-}
+bool Mesh::is_valid_star(Index v) const { return is_star_above(v, kDegenerateSine, kStraightSine); }
 
 bool Mesh::is_above(Index f, double sine) const {
   const Index h = half_edge(f), k = next(h), l = next(k);
   const double least = sine * sine;
   if (degree(f) == 3) return is_triangle_above(point(origin(h)), point(origin(k)), point(origin(l)), sine);
-  if (degree(f) == 4) return is_above_in(least, point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)));
+  if (degree(f) == 4)
+    return is_quad_above(point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)), least);
   Index e = h;
   do {
     if (!is_convex_corner(point(origin(prev(e))), point(origin(e)), point(target(e)), sine)) return false;
@@ -166,12 +164,23 @@ bool Mesh::is_above(Index f, double sine) const {
   return true;
 }
 
-bool Mesh::is_star_above(Index v, double sine) const {
-  Index h = out(v);
+bool Mesh::is_star_above(Index v, double sine) const { return is_star_above(v, sine, sine); }
+
+bool Mesh::is_star_above(Index v, double triangle_sine, double sine) const {
+  const double least = sine * sine;
+  const Vec2& p = point(v);
+  const Index start = out(v);
+  Index h = start;
   do {
-    if (face(h) != kNone && !is_above(face(h), sine)) return false;
-    h = rotate_ccw(h);
-  } while (h != out(v));
+    const Index f = face(h), to_v = prev(h);
+    if (is_quad(f)) {
+      const Index k = next(h);
+      if (!is_quad_above(p, point(origin(k)), point(origin(next(k))), point(origin(to_v)), least)) return false;
+    } else if (f != kNone && !is_above(f, is_triangle(f) ? triangle_sine : sine)) {
+      return false;
+    }
+    h = twin(to_v);
+  } while (h != start);
   return true;
 }
 

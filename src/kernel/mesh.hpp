@@ -150,6 +150,7 @@ class Mesh {
  private:
   template <std::size_t N>
   void build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open);
+  bool is_star_above(Index v, double triangle_sine, double sine) const;
   void check_touched() const;
   HalfEdge& edit_half_edge(Index h);
   Vertex& edit_vertex(Index v);

@@ -115,6 +115,7 @@ class Passes {
       const bool any_between = relax(between_);
       if (!any_between && std::count(moved.begin(), moved.end(), 1) == 0) break;
     }
+    std::fill(active_.begin(), active_.end(), 1);
     for (int pass = 0; pass < kRepairPasses; ++pass) {
       parallel::for_each_index(blocks_.size(), [&](std::size_t b) { raise_poor(blocks_[b]); });
       raise_poor(between_);
@@ -163,8 +164,11 @@ class Passes {
   }
 
   void raise_poor(const std::vector<Index>& nodes) {
-    for (Index v : nodes)
-      if (!mesh_.is_star_above(v, options_.target_quality)) raise_smallest_sine(mesh_, v);
+    for (Index v : nodes) {
+      if (!active_[v]) continue;
+      active_[v] = 0;
+      if (!mesh_.is_star_above(v, options_.target_quality) && raise_smallest_sine(mesh_, v)) wake_around(v);
+    }
   }
 
   void wake_around(Index v) {
