@@ -152,9 +152,9 @@ class Mesh {
   void build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open);
   bool is_star_above(Index v, double triangle_sine, double sine) const;
   void check_touched() const;
-  HalfEdge& edit_half_edge(Index h);
-  Vertex& edit_vertex(Index v);
-  Face& edit_face(Index f);
+  HalfEdge& edit_half_edge(Index h) { return edit(edge_pool_, half_edges_, h); }
+  Vertex& edit_vertex(Index v) { return edit(vertex_pool_, vertices_, v); }
+  Face& edit_face(Index f) { return edit(face_pool_, faces_, f); }
   void link(Index h, Index after);
   void set_face(Index h, Index f) { edit_half_edge(h).face = f; }
   Index new_edge(Index from, Index to);
@@ -186,7 +186,10 @@ class Mesh {
   template <class T>
   void rollback_pool(Pool<T>& pool, std::vector<T>& values);
   template <class T>
-  T& edit(Pool<T>& pool, std::vector<T>& values, Index i);
+  T& edit(Pool<T>& pool, std::vector<T>& values, Index i) {
+    if (recording_) pool.old_values.emplace_back(i, values[i]);
+    return values[i];
+  }
   template <class T>
   void release(Pool<T>& pool, Index i);
 

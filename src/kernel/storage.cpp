@@ -8,19 +8,9 @@
 namespace qmorph::kernel {
 
 template <class T>
-T& Mesh::edit(Pool<T>& pool, std::vector<T>& values, Index i) {
-  if (recording_) pool.old_values.emplace_back(i, values[i]);
-  return values[i];
-}
-
-template <class T>
 void Mesh::release(Pool<T>& pool, Index i) {
   (recording_ ? pool.released : pool.free).push_back(i);
 }
-
-HalfEdge& Mesh::edit_half_edge(Index h) { return edit(edge_pool_, half_edges_, h); }
-Vertex& Mesh::edit_vertex(Index v) { return edit(vertex_pool_, vertices_, v); }
-Face& Mesh::edit_face(Index f) { return edit(face_pool_, faces_, f); }
 
 namespace {
 
