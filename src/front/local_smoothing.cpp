@@ -148,8 +148,16 @@ Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
 
 /// Moves v, which has triangles around it alone, to `goal` if all of them are good then. Nearly always they are.
 bool move_among_triangles(kernel::Mesh& mesh, Index v, const Vec2& goal, std::span<const Vec2> ring) {
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    if (!is_triangle_above(goal, ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], kWorstSine)) return false;
+  // is_triangle_above(), but what two triangles have in common once
+  Vec2 p = ring.back(), spoke = p - goal;
+  double square = spoke.squaredNorm();
+  for (const Vec2& q : ring) {
+    const Vec2 side = q - p, next_spoke = q - goal;
+    const double side_square = side.squaredNorm(), next_square = next_spoke.squaredNorm(), area = cross(spoke, side);
+    const double most = std::max(std::max(square * side_square, side_square * next_square), next_square * square);
+    if (!(area > 0 && area * area > kWorstSine * kWorstSine * most)) return false;
+    p = q, spoke = next_spoke, square = next_square;
+  }
   mesh.set_point(v, goal);
   return true;
 }
@@ -202,19 +210,19 @@ void smooth_around(Step& step, Index face) {
     nodes.push_back(mesh.origin(h));
     h = mesh.next(h);
   } while (h != start);
-  const std::size_t corners = nodes.size();
-  for (std::size_t i = 0; i < corners; ++i) {
+  const auto corners = std::ptrdiff_t(nodes.size());
+  for (std::ptrdiff_t i = 0; i < corners; ++i) {
     Index e = mesh.out(nodes[i]);
     do {
-      nodes.push_back(mesh.target(e));
+      const Index v = mesh.target(e);
+      if (std::find(nodes.begin(), nodes.begin() + corners, v) == nodes.begin() + corners) nodes.push_back(v);
       e = mesh.rotate_ccw(e);
     } while (e != mesh.out(nodes[i]));
   }
-  const auto others = nodes.begin() + std::ptrdiff_t(corners);
+  const auto others = nodes.begin() + corners;
   std::sort(others, nodes.end());
   nodes.erase(std::unique(others, nodes.end()), nodes.end());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (i < corners || std::find(nodes.begin(), others, nodes[i]) == others) smooth_node(step, nodes[i]);
+  for (Index v : nodes) smooth_node(step, v);
 }
 
 }  // namespace qmorph::front

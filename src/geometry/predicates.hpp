@@ -34,7 +34,7 @@ inline bool is_convex_corner(const Vec2& a, const Vec2& b, const Vec2& c, double
 inline bool is_triangle_above(const Vec2& a, const Vec2& b, const Vec2& c, double sine) {
   const Vec2 ab = b - a, bc = c - b, ca = a - c;
   const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm(), area = cross(ab, bc);
-  return area > 0 && area * area > sine * sine * std::max({l1 * l2, l2 * l3, l3 * l1});
+  return area > 0 && area * area > sine * sine * std::max(std::max(l1 * l2, l2 * l3), l3 * l1);
 }
 
 }  // namespace qmorph

@@ -49,7 +49,7 @@ double signed_root(double area, double product) {
 double smallest_sine_of(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 ab = b - a, bc = c - b, ca = a - c;
   const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm();
-  return signed_root(cross(ab, bc), std::max({l1 * l2, l2 * l3, l3 * l1}));
+  return signed_root(cross(ab, bc), std::max(std::max(l1 * l2, l2 * l3), l3 * l1));
 }
 
 /// Of a quad. Squares are compared as fractions: one root and one division at the end.
