@@ -4,17 +4,23 @@ namespace qmorph::cleanup {
 
 using kernel::Mesh;
 
+namespace {
+
+void next_round(std::uint32_t& round, std::vector<std::uint32_t>& marks) {
+  if (++round != 0) return;
+  marks.assign(marks.size(), 0);  // those of four thousand million rounds ago would look new
+  round = 1;
+}
+
+}  // namespace
+
 void Cavity::new_round() {
   if (face_mark_.size() < mesh_.face_slots()) face_mark_.resize(mesh_.face_slots(), 0);
   if (node_mark_.size() < mesh_.vertex_slots()) {
     node_mark_.resize(mesh_.vertex_slots(), 0);
     leaving_.resize(mesh_.vertex_slots(), kNone);
   }
-  if (++round_ == 0) {  // marks of four thousand million rounds ago would look new
-    face_mark_.assign(face_mark_.size(), 0);
-    node_mark_.assign(node_mark_.size(), 0);
-    round_ = 1;
-  }
+  next_round(round_, face_mark_);
 }
 
 bool Cavity::add(Index f) {
@@ -79,7 +85,6 @@ bool Cavity::make_convex() {
 
 /// Finds outline and inner nodes. False if the quads are no disc or an inner node is not free.
 bool Cavity::trace() {
-  // A round of its own for the nodes: marks of faces must stay.
   inner_.clear();
   outline_.clear();
   outer_.clear();
@@ -103,24 +108,20 @@ bool Cavity::trace() {
   if (outline_.size() != border) return false;  // touches itself, or has a hole
 
   for (std::size_t k = 0; k < border; ++k) {
-    const Index back = Mesh::twin(outline_[(k + border - 1) % border]);
-    int inside = 0;
-    Index e = outline_[k];
-    while ((e = mesh_.rotate_ccw(e)) != back) ++inside;
-    outer_.push_back(int(mesh_.valence(mesh_.origin(outline_[k]))) - inside);
+    Index e = Mesh::twin(outline_[k == 0 ? border - 1 : k - 1]);
+    int outside = 1;
+    for (; e != outline_[k]; e = mesh_.rotate_ccw(e)) ++outside;
+    outer_.push_back(outside);
   }
   // Nodes that are not on the outline.
-  for (Index f : faces_) {
-    Index e = mesh_.half_edge(f);
-    for (int i = 0; i < 4; ++i, e = mesh_.next(e)) node_mark_[mesh_.origin(e)] = 0;
-  }
-  for (Index e : outline_) node_mark_[mesh_.origin(e)] = round_;
+  next_round(trace_, node_mark_);
+  for (Index e : outline_) node_mark_[mesh_.origin(e)] = trace_;
   for (Index f : faces_) {
     Index e = mesh_.half_edge(f);
     for (int i = 0; i < 4; ++i, e = mesh_.next(e)) {
       const Index v = mesh_.origin(e);
-      if (node_mark_[v] == round_) continue;
-      node_mark_[v] = round_;
+      if (node_mark_[v] == trace_) continue;
+      node_mark_[v] = trace_;
       if (!mesh_.is_free(v)) return false;
       inner_.push_back(v);
     }

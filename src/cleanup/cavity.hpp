@@ -40,7 +40,8 @@ class Cavity {
   std::vector<int> outer_;
   std::vector<std::uint32_t> face_mark_, node_mark_;
   std::vector<Index> leaving_;  ///< by node: the half-edge of the outline that starts there
-  std::uint32_t round_ = 0;
+  std::uint32_t round_ = 0;     ///< of face marks: one a cavity
+  std::uint32_t trace_ = 0;     ///< of node marks: one each time that the outline is found
 };
 
 }  // namespace qmorph::cleanup

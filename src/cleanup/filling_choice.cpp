@@ -24,6 +24,7 @@ struct Places {
   Places(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity) {
     const auto& outline = cavity.outline();
     const std::size_t n = outline.size();
+    corner_cost.reserve(n), corner_misfit.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       const Index v = mesh.origin(outline[i]);
       const int corner = cavity.outer_edges()[i] - score.ideal(v), side = corner + 1;
@@ -48,17 +49,20 @@ class Chooser {
       : places_(places), n_(int(places.corner_cost.size())), most_cost_(most_cost), quads_wanted_(quads_wanted) {}
 
   std::vector<FillingChoice> run() {
-    const std::vector<int> likely = likely_corners();
-    std::vector<int> picked;
+    find_likely_corners();
     if (n_ <= kShortOutline) {
       const int half = n_ / 2;
-      for (int i = 0; i < half; ++i)
-        for (int j = i + 1; j < half; ++j) offer(std::array{i, j, i + half, j + half});
+      const auto cost_of_pair = [&](int i) { return places_.corner_cost[i] + places_.corner_cost[i + half]; };
+      for (int i = 0; i < half; ++i) {
+        const double cost = places_.side_cost + cost_of_pair(i);
+        for (int j = i + 1; j < half; ++j)
+          if (cost + cost_of_pair(j) <= most_cost_) offer(std::array{i, j, i + half, j + half});
+      }
     } else {
-      pick(likely, 0, 4, picked);
+      pick(0, 4, cost_of_sides(4));
     }
-    pick(likely, 0, 3, picked);
-    pick(likely, 0, 5, picked);
+    pick(0, 3, cost_of_sides(3));
+    pick(0, 5, cost_of_sides(5));
     std::stable_sort(found_.begin(), found_.end(), [](const FillingChoice& a, const FillingChoice& b) {
       return a.cost + a.misfit < b.cost + b.misfit;
     });
@@ -66,28 +70,42 @@ class Chooser {
   }
 
  private:
-  std::vector<int> likely_corners() const {
-    std::vector<int> all(n_);
-    std::iota(all.begin(), all.end(), 0);
-    std::stable_sort(all.begin(), all.end(), [&](int i, int j) { return places_.weight(i) < places_.weight(j); });
-    if (all.size() > kLikelyCorners) all.resize(kLikelyCorners);
-    std::sort(all.begin(), all.end());
-    return all;
+  void find_likely_corners() {
+    std::vector<std::pair<double, int>> all;
+    all.reserve(n_);
+    for (int i = 0; i < n_; ++i) all.emplace_back(places_.weight(i), i);
+    const std::size_t count = std::min(all.size(), kLikelyCorners);
+    std::partial_sort(all.begin(), all.begin() + std::ptrdiff_t(count), all.end());
+    likely_.reserve(count), cheapest_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      likely_.push_back(all[i].second);
+      cheapest_.push_back(places_.corner_cost[all[i].second]);
+    }
+    std::sort(likely_.begin(), likely_.end());
+    // cheapest_[k] becomes what k corners cost at least.
+    std::sort(cheapest_.begin(), cheapest_.end());
+    std::exclusive_scan(cheapest_.begin(), cheapest_.end(), cheapest_.begin(), 0.0);
   }
 
-  /// Offers every choice of `left` more corners from likely[from] on.
-  void pick(const std::vector<int>& likely, std::size_t from, int left, std::vector<int>& picked) {
-    if (left == 0) return offer(picked);
-    for (std::size_t i = from; i + left <= likely.size(); ++i) {
-      picked.push_back(likely[i]);
-      pick(likely, i + 1, left - 1, picked);
-      picked.pop_back();
+  /// Costs are whole numbers: their sums have no rounding, in whatever order.
+  double cost_of_sides(int corners) const { return places_.side_cost + (corners == 4 ? 0 : 1); }
+
+  /// Offers every choice of `left` more corners from likely_[from] on that does not cost too much; `cost` is that of the corners
+  /// picked so far and the sides.
+  void pick(std::size_t from, int left, double cost) {
+    if (left == 0) return offer(picked_);
+    for (std::size_t i = from; i + left <= likely_.size(); ++i) {
+      const double with = cost + places_.corner_cost[likely_[i]];
+      if (with + cheapest_[left - 1] > most_cost_) continue;
+      picked_.push_back(likely_[i]);
+      pick(i + 1, left - 1, with);
+      picked_.pop_back();
     }
   }
 
   void offer(std::span<const int> corners) {
     FillingChoice choice;
-    choice.cost = places_.side_cost + (corners.size() == 4 ? 0 : 1);
+    choice.cost = cost_of_sides(int(corners.size()));
     choice.misfit = places_.side_misfit;
     for (int c : corners) choice.cost += places_.corner_cost[c], choice.misfit += places_.corner_misfit[c];
     if (choice.cost > most_cost_) return;
@@ -102,6 +120,9 @@ class Chooser {
   const Places& places_;
   int n_;
   double most_cost_, quads_wanted_;
+  std::vector<int> likely_;       ///< places for three and five corners, ascending
+  std::vector<double> cheapest_;  ///< [k]: what k of them cost at least
+  std::vector<int> picked_;
   std::vector<FillingChoice> found_;
 };
 
