@@ -4,6 +4,7 @@
 #include "engine/parts/convert_parts.hpp"
 #include "engine/parts/cutting_line.hpp"
 #include "engine/parts/divide.hpp"
+#include "engine/parts/grid_outline.hpp"
 #include "engine/parts/join.hpp"
 #include "kernel/fixture.hpp"
 #include "support/domains.hpp"
@@ -122,6 +123,28 @@ TEST_CASE(
     failed += !find_fault(*mesh, sample.region, sample.plane).empty();
   }
   CHECK(failed <= 1);
+}
+
+TEST_CASE(
+    "parts: an outline that a grid fits into is one with four corners and equal opposite sides, and nothing inside") {
+  CHECK(has_grid_outline(grid(12, 8, Diagonals::rising)));
+  Rng rng(1);
+  const auto with_hole = [](Index x, Index y) { return x == 5 && y == 4; };
+  CHECK_FALSE(has_grid_outline(grid(12, 8, Diagonals::rising, rng, with_hole)));
+  const auto with_notch = [](Index x, Index y) { return x > 5 && y > 4; };
+  CHECK_FALSE(has_grid_outline(grid(12, 8, Diagonals::rising, rng, with_notch)));
+
+  Mesh uneven = grid(12, 8, Diagonals::rising);
+  Index h = 0;
+  while (uneven.face(h) != kNone) ++h;
+  uneven.split_edge(h, 0.5 * (uneven.point(uneven.origin(h)) + uneven.point(uneven.target(h))));
+  CHECK_FALSE(has_grid_outline(uneven));
+
+  Mesh with_point = grid(12, 8, Diagonals::rising);
+  Index v = 0;
+  while (with_point.is_boundary(v)) ++v;
+  with_point.set_fixed(v);
+  CHECK_FALSE(has_grid_outline(with_point));
 }
 
 TEST_CASE("parts: a long rectangle is cut across, a notch is where it is cut") {

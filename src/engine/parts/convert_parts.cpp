@@ -1,6 +1,7 @@
 #include "engine/parts/convert_parts.hpp"
 
 #include "engine/parts/divide.hpp"
+#include "engine/parts/grid_outline.hpp"
 #include "engine/parts/join.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
@@ -57,6 +58,7 @@ bool is_large(std::size_t triangles, const Options& options) {
 
 std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::Mesh& input, const Plane& plane,
                                              const Options& options, ConversionStats& stats, Snapshots* snapshots) {
+  if (has_grid_outline(start)) return {};  // cleanup will find the grid, but only in one piece
   const Division division = divide(start, options.part_triangles);
   if (division.parts < 2) return {};
   const std::vector<Region> parts = take_apart(start, division);
