@@ -2,18 +2,22 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace qmorph::front {
 namespace {
 
-constexpr int kForced = 0;
+constexpr unsigned kForced = 0;
+constexpr int kPriorityShift = 16, kLevelShift = 32;
 
 /// Four classes an octave; exact, so that no rounding of a logarithm decides.
-std::int16_t length_class(double length) {
+int length_class(double length) {
   int exponent = 0;
   const double mantissa = std::frexp(length, &exponent);  // in [0.5, 1)
-  return std::int16_t(4 * exponent + int((mantissa - 0.5) * 8));
+  return 4 * exponent + int((mantissa - 0.5) * 8);
 }
+
+bool is_forced(std::uint64_t key) { return (key >> kPriorityShift & 0xffff) == kForced; }
 
 }  // namespace
 
@@ -51,33 +55,25 @@ State Front::state(Index h) const {
   return {is_corner(prev(h), h), is_corner(h, next(h))};
 }
 
-void Front::push(Index h, bool forced) {
-  if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
-  const Key key{level(h), std::uint16_t(forced ? kForced : 3 - state(h).corners()), length_class(mesh_.length(h))};
-  Queued& queued = queued_[h];
-  if (queued.is_queued && queued.key == key) return;
-  queued = {key, true};
-  queue_.push({key, h});
+Front::Key Front::key_of(unsigned level, unsigned priority, double length) {
+  constexpr int kLeastClass = -0x8000;
+  return Key(level) << kLevelShift | Key(priority) << kPriorityShift | Key(length_class(length) - kLeastClass);
 }
 
-void Front::push_around(Index v) {
-  Index h = mesh_.out(v);
-  do {
-    if (contains(h)) push(h);
-    if (contains(Mesh::twin(h))) push(Mesh::twin(h));
-    h = mesh_.rotate_ccw(h);
-  } while (h != mesh_.out(v));
+void Front::push(Index h, bool forced) {
+  if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
+  const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state(h).corners()), mesh_.length(h));
+  if (std::exchange(queued_[h], key) != key) queue_.push({key, h});
 }
 
 Index Front::pop() {
   while (!queue_.empty()) {
     const Entry top = queue_.top();
     queue_.pop();
-    Queued& queued = queued_[top.half_edge];
-    if (!queued.is_queued || queued.key != top.key) continue;
-    queued.is_queued = false;
+    if (queued_[top.half_edge] != top.key) continue;
+    queued_[top.half_edge] = 0;
     if (!mesh_.is_live_half_edge(top.half_edge) || !contains(top.half_edge)) continue;
-    popped_forced_ = top.key.priority == kForced;
+    popped_forced_ = is_forced(top.key);
     return top.half_edge;
   }
   return kNone;

@@ -5,7 +5,6 @@
 /// quad. So there is no list of front edges that could go stale; kept beside the mesh are only levels,
 /// the colours of loops and a queue.
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <queue>
@@ -34,6 +33,19 @@ class Front {
   bool contains(Index h) const {
     return mesh_.is_triangle(mesh_.face(h)) && !mesh_.is_triangle(mesh_.face(Mesh::twin(h)));
   }
+  /// Calls visit(h) for every front edge that starts or ends at v.
+  template <class Visit>
+  void for_edges_at(Index v, const Visit& visit) const {
+    const Index start = mesh_.out(v);
+    Index h = start;
+    bool was_triangle = mesh_.is_triangle(mesh_.face(Mesh::twin(h)));
+    do {
+      const bool is_triangle = mesh_.is_triangle(mesh_.face(h));
+      if (is_triangle != was_triangle) visit(is_triangle ? h : Mesh::twin(h));
+      was_triangle = is_triangle;
+      h = mesh_.rotate_ccw(h);
+    } while (h != start);
+  }
   /// The front edge that follows (precedes) h through the triangles ahead. O(valence).
   Index next(Index h) const;
   Index prev(Index h) const;
@@ -53,36 +65,30 @@ class Front {
   /// (Re)enters a front edge with its present state, level and length. `forced`: as if in state 1-1, once.
   void push(Index h, bool forced = false);
   /// Re-enters every front edge that starts or ends at v.
-  void push_around(Index v);
+  void push_around(Index v) {
+    for_edges_at(v, [&](Index h) { push(h); });
+  }
   /// The edge to process next, or kNone when the queue is empty. Thesis 3.5.2.
   Index pop();
   bool was_forced() const { return popped_forced_; }
 
  private:
-  /// What decides between front edges, the lower the sooner: level, then state, then length. Lengths of one class are equal
-  /// here: neighbours come one after another then, which is good for rows and for caches.
-  struct Key {
-    std::uint32_t level = 0;
-    std::uint16_t priority = 0;  ///< 0 first
-    std::int16_t length_class = 0;
-    auto operator<=>(const Key&) const = default;
-  };
+  /// What decides between front edges, the lower the sooner: level, then state, then length, in one number. Lengths of one class
+  /// are equal here: neighbours come one after another then, which is good for rows and for caches. Never 0.
+  using Key = std::uint64_t;
+  static Key key_of(unsigned level, unsigned priority, double length);
   struct Entry {
     Key key;
     Index half_edge;
     bool operator>(const Entry& o) const { return key != o.key ? key > o.key : half_edge > o.half_edge; }
-  };
-  /// The entry that counts for a half-edge; older ones with other keys are passed over.
-  struct Queued {
-    Key key;
-    bool is_queued = false;
   };
 
   const Mesh& mesh_;
   FrontOptions options_;
   double corner_cosine_;
   LoggedColumn<unsigned> levels_;
-  std::vector<Queued> queued_;
+  /// By half-edge: the key of the entry that counts, 0 for none; entries with other keys are passed over.
+  std::vector<Key> queued_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   bool popped_forced_ = false;
 };

@@ -102,7 +102,8 @@ class Morph {
       for (bool left : {true, false})
         if (special_case(base, left)) return true;
     if (!forced && refine(base)) return true;
-    if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, base); })) return ++counts_.small_loops, true;
+    if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, base); }))
+      return ++counts_.small_loops, true;
     if (attempt(FilmStep::quad, [&] { return make_quad(base); })) return ++counts_.quads, true;
     return false;
   }
@@ -147,15 +148,14 @@ class Morph {
     touched_.clear();
     for (Index v : step_.moved) {
       if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
-      Index h = mesh_.out(v);
-      do {
-        for (Index e : {h, Mesh::twin(h)})
-          if (front_.contains(e)) {
-            touched_.push_back(e);
-            touched_.push_back(mesh_.origin(e) == v ? front_.next(e) : front_.prev(e));
-          }
-        h = mesh_.rotate_ccw(h);
-      } while (h != mesh_.out(v));
+      front_.for_edges_at(v, [&](Index h) {
+        touched_.push_back(h);
+        const bool starts = mesh_.origin(h) == v;
+        const Index neighbour = starts ? mesh_.target(h) : mesh_.origin(h);
+        const bool has_turn =
+            colours_.is_coloured(neighbour) && std::binary_search(step_.moved.begin(), step_.moved.end(), neighbour);
+        if (!has_turn) touched_.push_back(starts ? front_.next(h) : front_.prev(h));
+      });
     }
     std::sort(touched_.begin(), touched_.end());
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
