@@ -43,6 +43,12 @@ double Front::angle_between(Index incoming, Index outgoing) const {
   return angle > 0 ? angle : 2 * std::numbers::pi;
 }
 
+bool Front::is_angle_below(Index incoming, Index outgoing, double limit) const {
+  const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
+  if (limit <= 0.5 * std::numbers::pi && (ahead.dot(back) < 0 || cross(ahead, back) < 0)) return false;
+  return angle_between(incoming, outgoing) < limit;
+}
+
 State Front::state(Index h) const {
   // Compared by cosines: no inverse trigonometry, whose last bit differs between machines.
   const auto is_corner = [&](Index incoming, Index outgoing) {

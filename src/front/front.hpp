@@ -53,6 +53,8 @@ class Front {
   double angle_left(Index h) const { return angle_between(prev(h), h); }
   double angle_right(Index h) const { return angle_between(h, next(h)); }
   double angle_between(Index incoming, Index outgoing) const;
+  /// angle_between() is below `limit`. Mostly it is far above, which takes no arc tangent.
+  bool is_angle_below(Index incoming, Index outgoing, double limit) const;
   State state(Index h) const;
 
   // --- levels -----------------------------------------------------------------------------------------

@@ -168,10 +168,10 @@ class Morph {
   bool special_case(Index base, bool left) {
     const Index in = left ? front_.prev(base) : base, out = left ? base : front_.next(base);
     if (in == out || Mesh::twin(in) == out) return false;
-    const double angle = front_.angle_between(in, out);
     const double l1 = mesh_.length(in), l2 = mesh_.length(out);
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
-    if (angle < seam_angle(mesh_.target(in))) {
+    if (front_.is_angle_below(in, out, std::max(options_.seam_angle, options_.seam_angle_many)) &&
+        front_.is_angle_below(in, out, seam_angle(mesh_.target(in)))) {
       if (transition) {
         if (attempt(FilmStep::transition_seam, [&] { return transition_seam(step_, in, out); }))
           return ++counts_.transition_seams, true;

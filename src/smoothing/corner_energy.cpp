@@ -91,25 +91,34 @@ double improve(Mesh& mesh, Index v, double good) {
   return 0;
 }
 
+/// A face and its smallest sine.
+struct FaceSine {
+  Index face;
+  double sine;
+};
+
 /// The sine below which elements count as bad: at most a small share of them, since what they gain the others lose.
-double bad_sine(const Mesh& mesh, double good) {
+double bad_sine(const Mesh& mesh, const std::vector<FaceSine>& below_good, double good) {
   constexpr double kMostBad = 0.05;
-  std::vector<double> sines;
   std::size_t faces = 0;
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f)) continue;
-    ++faces;
-    const double sine = mesh.smallest_sine(f);
-    if (sine < good) sines.push_back(sine);
-  }
+  for (Index f = 0; f < mesh.face_slots(); ++f) faces += mesh.is_live_face(f);
   const auto most = std::size_t(std::ceil(kMostBad * double(faces)));
-  if (sines.size() <= most) return good;
+  if (below_good.size() <= most) return good;
+  std::vector<double> sines;
+  for (const FaceSine& face : below_good) sines.push_back(face.sine);
   std::nth_element(sines.begin(), sines.begin() + most, sines.end());
   return sines[most];
 }
 
 /// Free nodes of the bad faces and of `rings` rings of faces around.
 std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
+  std::vector<FaceSine> faces;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    const double sine = mesh.smallest_sine(f);
+    if (sine < good) faces.push_back({f, sine});
+  }
+  const double bad = bad_sine(mesh, faces, good);
   std::vector<Index> nodes;
   std::vector<char> taken(mesh.vertex_slots(), 0);
   const auto take = [&](Index f) {
@@ -117,8 +126,8 @@ std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
     for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h))
       if (!taken[mesh.origin(h)]) taken[mesh.origin(h)] = 1, nodes.push_back(mesh.origin(h));
   };
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f) && mesh.smallest_sine(f) < good) take(f);
+  for (const FaceSine& face : faces)
+    if (face.sine < bad) take(face.face);
   for (int ring = 0; ring < rings; ++ring) {
     const std::size_t count = nodes.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -137,7 +146,7 @@ std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
 
 void raise_worst_corners(Mesh& mesh, const SmoothingOptions& options) {
   constexpr int kRings = 1, kPasses = 8;
-  const std::vector<Index> nodes = nodes_near_bad(mesh, bad_sine(mesh, options.good_quality), kRings);
+  const std::vector<Index> nodes = nodes_near_bad(mesh, options.good_quality, kRings);
   for (int pass = 0; pass < kPasses; ++pass) {
     double moved = 0;
     for (Index v : nodes) moved = std::max(moved, improve(mesh, v, options.good_quality));
