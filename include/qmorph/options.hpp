@@ -79,7 +79,7 @@ struct SmoothingOptions {
   /// Of the smoothing of the whole mesh; what cleanup relaxes around a change always uses the energy.
   SmoothingMethod method = SmoothingMethod::shape_energy;
   ThesisSmoothing thesis;
-  int iterations = 6;            ///< passes over the nodes that are still active
+  int iterations = 4;            ///< passes over the nodes that are still active
   double move_tolerance = 1e-3;  ///< a move shorter than this times the local edge length ends a node's activity
   int untangling_sweeps = 40;    ///< passes of the regularised energy over a patch with invalid elements
   double good_quality = 0.75;    ///< corners with a smaller sine are raised in the end, at the cost of better ones

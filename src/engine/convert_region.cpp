@@ -134,7 +134,7 @@ class RegionConverter {
   Attempt attempt(const Options& options, bool with_front, std::size_t most_faces = std::size_t(-1)) {
     Attempt result{start_, before_, {}, {}};
     Options final = options;
-    if (is_small_) final.smoothing.good_quality = std::min(Worth::kGoodEnough, options.smoothing.good_quality);
+    if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(final, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
     if (with_front)
       if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film, plane_));
@@ -163,12 +163,17 @@ class RegionConverter {
     return {};
   }
 
-  /// Raises more corners than those that are not good enough, if the others do not lose more by it.
+  /// Raises the corners that are not good enough, or as many as asked for if the others do not lose more by it.
   static void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
     if (smoothing.method != SmoothingMethod::shape_energy) return;
-    kernel::Mesh raised = mesh;
-    smoothing::raise_worst_corners(raised, smoothing);
-    if (worth_of(raised).sum() > worth_of(mesh).sum()) mesh = std::move(raised);
+    const kernel::Mesh start = mesh;
+    for (double good : {Worth::kGoodEnough, smoothing.good_quality}) {
+      SmoothingOptions options = smoothing;
+      options.good_quality = std::min(good, smoothing.good_quality);
+      kernel::Mesh raised = start;
+      smoothing::raise_worst_corners(raised, options);
+      if (worth_of(raised).sum() > worth_of(mesh).sum()) mesh = std::move(raised);
+    }
   }
 
   const Region& region_;

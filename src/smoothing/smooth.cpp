@@ -85,8 +85,10 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
     return (mesh.point(v) - before).norm() / edge;
   }
   const Vec2 start = mesh.point(v), step = direction(energy, edge);
+  // Over-relaxed: with 1.3 four passes reach more than six with 1.
+  constexpr double kOverRelaxation = 1.3;
   constexpr int kHalvings = 4;
-  double share = 1;
+  double share = kOverRelaxation;
   for (int i = 0; i < kHalvings; ++i, share /= 2) {
     const Vec2 p = start + share * step;
     const Energy there = star.energy(p);
