@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/parts/cutting_line.hpp"
 #include "engine/parts/interface.hpp"
@@ -13,8 +14,8 @@ using kernel::Mesh;
 
 /// What is larger than this times the size that parts are to have is cut.
 constexpr double kTooLarge = 1.5;
-/// A smaller piece of a part goes to the other side.
-constexpr double kSmallShare = 0.1;
+/// A piece of a part that is smaller than this times the size that parts are to have goes to a neighbour.
+constexpr double kCrumb = 0.1;
 
 Vec2 middle_of(const Mesh& mesh, Index f) {
   const Index h = mesh.half_edge(f);
@@ -26,7 +27,6 @@ class Dividing {
   Dividing(Mesh& mesh, std::size_t triangles) : mesh_(mesh), triangles_(double(triangles)) {
     division_.part.assign(mesh.face_slots(), kNone);
     other_.assign(mesh.face_slots(), 0);
-    piece_.assign(mesh.face_slots(), kNone);
   }
 
   Division run() {
@@ -38,6 +38,7 @@ class Dividing {
       const auto [part, faces] = std::move(waiting_[i]);
       if (double(faces.size()) > kTooLarge * triangles_) cut(part, faces);
     }
+    if (division_.parts > 1) settle_pieces();
     if (division_.parts > 1) finish_interfaces(mesh_, division_);
     return std::move(division_);
   }
@@ -47,21 +48,13 @@ class Dividing {
     const Line line = choose_line(part, faces);
     for (Index f : faces) other_[f] = line.distance(middle_of(mesh_, f)) >= 0;
     even_out(part, faces);
-    auto pieces = pieces_of(part, faces);
-    bool any_small = false;
-    for (const auto& piece : pieces)
-      if (double(piece.size()) < kSmallShare * double(faces.size())) {
-        any_small = true;
-        for (Index f : piece) other_[f] = !other_[f];
-      }
-    if (any_small) pieces = pieces_of(part, faces);
-    if (pieces.size() < 2) return;
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-      for (Index f : pieces[i]) division_.part[f] = division_.parts;
-      waiting_.emplace_back(division_.parts++, std::move(pieces[i]));
-    }
-    waiting_.emplace_back(part, std::move(pieces[0]));
+    std::vector<Index> sides[2];
+    for (Index f : faces) sides[int(other_[f])].push_back(f);
+    if (sides[0].empty() || sides[1].empty()) return;
+    for (Index f : sides[1]) division_.part[f] = division_.parts;
     straighten_interfaces(mesh_, division_, nodes_between(faces));
+    waiting_.emplace_back(part, std::move(sides[0]));
+    waiting_.emplace_back(division_.parts++, std::move(sides[1]));
   }
 
   Line choose_line(Index part, const std::vector<Index>& faces) const {
@@ -111,29 +104,46 @@ class Dividing {
     }
   }
 
-  /// What hangs together on either side, each in the order of the faces.
-  std::vector<std::vector<Index>> pieces_of(Index part, const std::vector<Index>& faces) {
-    for (Index f : faces) piece_[f] = kNone;
-    Index pieces = 0;
-    std::vector<Index> open;
-    for (Index first : faces) {
-      if (piece_[first] != kNone) continue;
-      open.assign(1, first);
-      piece_[first] = pieces;
-      while (!open.empty()) {
-        const Index f = open.back();
-        open.pop_back();
-        for_each_side(f, [&](Index h) {
-          if (part_beyond(h) != part) return;
-          const Index g = mesh_.face(Mesh::twin(h));
-          if (piece_[g] == kNone && other_[g] == other_[f]) piece_[g] = pieces, open.push_back(g);
-        });
-      }
-      ++pieces;
+  /// A line may cut a part into several pieces: a large one becomes a part of its own, crumbs go to a neighbour.
+  void settle_pieces() {
+    std::vector<std::vector<Index>> pieces;
+    std::vector<char> seen(mesh_.face_slots(), 0);
+    for (Index f = 0; f < mesh_.face_slots(); ++f)
+      if (mesh_.is_live_face(f) && !seen[f]) pieces.push_back(piece_around(f, seen));
+    std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    std::vector<char> is_taken(division_.parts, 0);
+    for (const auto& piece : pieces) {
+      const Index part = division_.part[piece[0]];
+      Index becomes = part;
+      if (is_taken[part]) becomes = double(piece.size()) < kCrumb * triangles_ ? part_around(piece) : division_.parts++;
+      if (becomes < is_taken.size()) is_taken[becomes] = 1;
+      for (Index f : piece) division_.part[f] = becomes;
     }
-    std::vector<std::vector<Index>> result(pieces);
-    for (Index f : faces) result[piece_[f]].push_back(f);
-    return result;
+  }
+
+  std::vector<Index> piece_around(Index first, std::vector<char>& seen) const {
+    std::vector<Index> piece{first};
+    seen[first] = 1;
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for_each_side(piece[i], [&](Index h) {
+        const Index g = mesh_.face(Mesh::twin(h));
+        if (g != kNone && !seen[g] && division_.part[g] == division_.part[first]) seen[g] = 1, piece.push_back(g);
+      });
+    return piece;
+  }
+
+  /// The part that lies beyond most sides of a piece.
+  Index part_around(const std::vector<Index>& piece) const {
+    std::map<Index, int> sides;
+    const Index own = division_.part[piece[0]];
+    for (Index f : piece)
+      for_each_side(f, [&](Index h) {
+        const Index part = part_beyond(h);
+        if (part != kNone && part != own) ++sides[part];
+      });
+    const auto most =
+        std::max_element(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == sides.end() ? own : most->first;
   }
 
   /// Nodes of the interfaces among these faces.
@@ -153,7 +163,6 @@ class Dividing {
   const double triangles_;
   Division division_;
   std::vector<char> other_;                                    ///< by face: which side of the line
-  std::vector<Index> piece_;                                   ///< by face, of pieces_of()
   std::vector<std::pair<Index, std::vector<Index>>> waiting_;  ///< parts that may be too large
 };
 
