@@ -77,6 +77,7 @@ void Pipeline::clean(kernel::Mesh& mesh) {
   cleanup::clean_up(mesh, options_.smoothing);
   cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing);
   end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
+  progress("cleanup", 0.75);
 }
 
 void Pipeline::remove_doublet(kernel::Mesh& mesh, Index v) const {
