@@ -22,49 +22,54 @@ constexpr double kVisibleMove = 0.02;
 /// irregular nodes on one with embedded points, and sizes nearer to the input's.
 constexpr double kSizeShare = 0.75;
 
+/// What is around a node, looked at once.
 struct Surrounding {
+  std::span<const Spoke> spokes;  ///< counter-clockwise
   int quads = 0;
   int front_edges = 0;
   Index incoming = kNone, outgoing = kNone;  ///< front edges, the last pair found
+  Index behind = kNone;                      ///< the first node found that shares two quads with this one
+
+  const Spoke& after(const Spoke& spoke) const { return &spoke == &spokes.back() ? spokes.front() : *(&spoke + 1); }
 };
 
-Surrounding look_around(const Step& step, Index v) {
+Surrounding look_around(Step& step, Index v) {
   const Mesh& mesh = step.mesh;
   Surrounding s;
+  step.spokes.clear();
   const Index start = mesh.out(v);
-  Index h = start;
-  bool was_triangle = mesh.is_triangle(mesh.face(Mesh::twin(h)));  // on the right of h; v is inside
+  Index h = start, face_before = mesh.face(Mesh::twin(h));  // on the right of h; v is inside
+  bool was_triangle = mesh.is_triangle(face_before);
+  bool was_quad = mesh.is_quad(face_before);
   do {
-    const bool is_triangle = mesh.is_triangle(mesh.face(h));
+    const Index f = mesh.face(h), end = mesh.target(h);
+    const bool is_triangle = mesh.is_triangle(f), is_quad = mesh.is_quad(f);
+    step.spokes.push_back({mesh.point(end), is_quad ? mesh.point(mesh.target(mesh.next(h))) : Vec2(0, 0), is_quad});
     if (!is_triangle) ++s.quads;
     if (is_triangle && !was_triangle) s.outgoing = h, ++s.front_edges;
     if (!is_triangle && was_triangle) s.incoming = Mesh::twin(h), ++s.front_edges;
-    was_triangle = is_triangle;
+    if (is_quad && was_quad && s.behind == kNone) s.behind = end;
+    was_triangle = is_triangle, was_quad = is_quad;
     h = mesh.rotate_ccw(h);
   } while (h != start);
+  s.spokes = step.spokes;
   return s;
 }
 
 /// Mean over the quads around v of where v completes a parallelogram. [Blacker91]
-Vec2 isoparametric_position(const Mesh& mesh, Index v, int quads) {
+Vec2 isoparametric_position(const Surrounding& s) {
   Vec2 sum = Vec2::Zero();
-  Index h = mesh.out(v);
-  do {
-    if (mesh.is_quad(mesh.face(h))) {
-      const Index k = mesh.next(h);
-      sum += mesh.point(mesh.target(h)) + mesh.point(mesh.origin(mesh.prev(h))) - mesh.point(mesh.target(k));
-    }
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return sum / quads;
+  for (const Spoke& spoke : s.spokes)
+    if (spoke.is_quad) sum += spoke.end + s.after(spoke).end - spoke.opposite;
+  return sum / s.quads;
 }
 
 /// Length-weighted Laplacian: neighbours far away pull more. [Blacker91]
-Vec2 weighted_laplacian_position(const Vec2& at, std::span<const Vec2> neighbours) {
+Vec2 weighted_laplacian_position(const Vec2& at, const Surrounding& s) {
   Vec2 sum = Vec2::Zero();
   double weights = 0;
-  for (const Vec2& p : neighbours) {
-    const Vec2 edge = p - at;
+  for (const Spoke& spoke : s.spokes) {
+    const Vec2 edge = spoke.end - at;
     const double length = edge.norm();
     sum += length * edge;
     weights += length;
@@ -72,19 +77,8 @@ Vec2 weighted_laplacian_position(const Vec2& at, std::span<const Vec2> neighbour
   return weights > 0 ? Vec2(at + sum / weights) : at;
 }
 
-/// Where the nodes around v are, counter-clockwise.
-std::span<const Vec2> look_at_ring(Step& step, Index v) {
-  step.ring.clear();
-  Index h = step.mesh.out(v);
-  do {
-    step.ring.push_back(step.mesh.point(step.mesh.target(h)));
-    h = step.mesh.rotate_ccw(h);
-  } while (h != step.mesh.out(v));
-  return step.ring;
-}
-
 /// How far the front node v should be from the node behind it.
-double ideal_distance(const Mesh& mesh, const Surrounding& s, Index behind) {
+double ideal_distance(const Mesh& mesh, const Surrounding& s) {
   const double l1 = mesh.length(s.incoming), l2 = mesh.length(s.outgoing);
   const double ratio = std::max(l1, l2) / std::min(l1, l2);
   if (ratio <= kModerateTransition) {
@@ -98,7 +92,7 @@ double ideal_distance(const Mesh& mesh, const Surrounding& s, Index behind) {
   int edges = 0;
   Index h = mesh.out(v);
   do {
-    const bool is_behind = mesh.target(h) == behind;
+    const bool is_behind = mesh.target(h) == s.behind;
     const bool is_ahead = mesh.is_triangle(mesh.face(h)) && mesh.is_triangle(mesh.face(Mesh::twin(h)));
     if (ratio > kStrongTransition || is_behind || is_ahead) sum += mesh.length(h), ++edges;
     h = mesh.rotate_ccw(h);
@@ -106,27 +100,16 @@ double ideal_distance(const Mesh& mesh, const Surrounding& s, Index behind) {
   return edges ? sum / edges : 0.5 * (l1 + l2);
 }
 
-/// The node behind a front node that two quads share.
-Index node_behind(const Mesh& mesh, Index v) {
-  Index h = mesh.out(v);
-  do {
-    if (mesh.is_quad(mesh.face(h)) && mesh.is_quad(mesh.face(Mesh::twin(h)))) return mesh.target(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return kNone;
-}
-
 /// Blacker and Stephenson's move for a front node between two quads: isoparametric, corrected for length and
 /// for angle (mean of the two). Thesis 3.5.5 and design section 4.
 Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   const Mesh& mesh = step.mesh;
-  const Vec2 isoparametric = isoparametric_position(mesh, v, s.quads);
-  const Index behind = node_behind(mesh, v);
-  if (behind == kNone) return isoparametric;
-  const Vec2 base = mesh.point(behind);
+  const Vec2 isoparametric = isoparametric_position(s);
+  if (s.behind == kNone) return isoparametric;
+  const Vec2 base = mesh.point(s.behind);
   const Vec2 step_out = isoparametric - base;
   if (step_out.norm() == 0) return isoparametric;
-  const double distance = (1 - kSizeShare) * ideal_distance(mesh, s, behind) + kSizeShare * step.size[v];
+  const double distance = (1 - kSizeShare) * ideal_distance(mesh, s) + kSizeShare * step.size[v];
   const Vec2 by_length = base + step_out.normalized() * distance;
 
   const Vec2 to_next = mesh.point(mesh.target(s.outgoing)) - base;
@@ -146,28 +129,32 @@ Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   return 0.5 * (by_length + by_angle);
 }
 
-/// Moves v, which has triangles around it alone, to `goal` if all of them are good then. Nearly always they are.
-bool move_among_triangles(kernel::Mesh& mesh, Index v, const Vec2& goal, std::span<const Vec2> ring) {
-  // is_triangle_above(), but what two triangles have in common once
-  Vec2 p = ring.back(), spoke = p - goal;
-  double square = spoke.squaredNorm();
-  for (const Vec2& q : ring) {
-    const Vec2 side = q - p, next_spoke = q - goal;
-    const double side_square = side.squaredNorm(), next_square = next_spoke.squaredNorm(), area = cross(spoke, side);
-    const double most = std::max(std::max(square * side_square, side_square * next_square), next_square * square);
-    if (!(area > 0 && area * area > kWorstSine * kWorstSine * most)) return false;
-    p = q, spoke = next_spoke, square = next_square;
+/// Every corner around a node would be above `sine` if the node were at p.
+bool is_above_at(const Vec2& p, const Surrounding& s, double sine) {
+  const double least = sine * sine;
+  const Spoke* spoke = &s.spokes.back();
+  Vec2 edge = spoke->end - p;
+  double square = edge.squaredNorm();
+  for (const Spoke& following : s.spokes) {
+    const Vec2 next_edge = following.end - p;
+    const double next_square = next_edge.squaredNorm();
+    if (spoke->is_quad) {
+      if (!is_quad_above(p, spoke->end, spoke->opposite, following.end, least)) return false;
+    } else {  // is_triangle_above(), but what two triangles have in common once
+      const Vec2 side = following.end - spoke->end;
+      const double side_square = side.squaredNorm(), area = cross(edge, side);
+      const double most = std::max(std::max(square * side_square, side_square * next_square), next_square * square);
+      if (!(area > 0 && area * area > least * most)) return false;
+    }
+    spoke = &following, edge = next_edge, square = next_square;
   }
-  mesh.set_point(v, goal);
   return true;
 }
 
 /// Moves v towards `goal` as far as every element around stays (or becomes) valid.
-bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal) {
+bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal, const Surrounding& s) {
+  if (is_above_at(goal, s, kWorstSine)) return mesh.set_point(v, goal), true;  // nearly always
   const Vec2 start = mesh.point(v);
-  mesh.set_point(v, goal);
-  if (mesh.is_star_above(v, kWorstSine)) return true;  // nearly always
-  mesh.set_point(v, start);
   const double floor = std::min(mesh.smallest_sine_around(v), kWorstSine);
   double share = 1;
   for (int i = 0; i <= kHalvings; ++i, share /= 2) {
@@ -186,15 +173,12 @@ void smooth_node(Step& step, Index v) {
   const Vec2 start = mesh.point(v);
   Vec2 goal;
   if (s.front_edges == 0)
-    goal = weighted_laplacian_position(start, look_at_ring(step, v));
+    goal = weighted_laplacian_position(start, s);
   else if (s.quads == 2 && s.front_edges == 2)
     goal = row_position(step, v, s);
-  else if (s.quads > 0)
-    goal = isoparametric_position(mesh, v, s.quads);
   else
-    return;
-  const bool moved = (s.quads == 0 && move_among_triangles(mesh, v, goal, step.ring)) || move_guarded(mesh, v, goal);
-  if (!moved) return;
+    goal = isoparametric_position(s);
+  if (!move_guarded(mesh, v, goal, s) || s.front_edges == 0) return;
   if ((mesh.point(v) - start).norm() > kVisibleMove * step.size[v]) step.moved.push_back(v);
 }
 

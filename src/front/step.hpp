@@ -13,6 +13,13 @@
 
 namespace qmorph::front {
 
+/// An edge at a node, and the face that follows it counter-clockwise.
+struct Spoke {
+  Vec2 end;
+  Vec2 opposite;  ///< the corner of the quad that follows which faces the node
+  bool is_quad;   ///< what follows is no triangle
+};
+
 struct Step {
   kernel::Mesh& mesh;
   Front& front;
@@ -23,7 +30,7 @@ struct Step {
 
   // Scratch space, kept to avoid allocations.
   std::vector<Index> scratch{};
-  std::vector<Vec2> ring{};
+  std::vector<Spoke> spokes{};
   std::vector<unsigned> face_mark{};
   unsigned mark = 0;
 
@@ -78,7 +85,7 @@ bool close_small_loop(Step& step, Index h);
 
 // --- local_smoothing.cpp ------------------------------------------------------------------------------------
 
-/// Smooths the nodes of a face and their neighbours and notes in `step.moved` which moved. Thesis 3.5.5.
+/// Smooths the nodes of a face and their neighbours and notes in `step.moved` which of the front moved. Thesis 3.5.5.
 void smooth_around(Step& step, Index face);
 
 /// New node at p on the edge of h, whose faces are triangles: both are split. Returns the node.

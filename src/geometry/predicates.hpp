@@ -37,4 +37,17 @@ inline bool is_triangle_above(const Vec2& a, const Vec2& b, const Vec2& c, doubl
   return area > 0 && area * area > sine * sine * std::max(std::max(l1 * l2, l2 * l3), l3 * l1);
 }
 
+/// As is_triangle_above() for a quad; `least` is the sine's square. The same for all four ways to begin.
+inline bool is_quad_above(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double least) {
+  using Lanes = Eigen::Array2d;  // two sides or corners, so that the processor works on both at once
+  const Vec2 ab = b - a, bc = c - b, cd = d - c, da = a - d;
+  const Lanes x1{ab.x(), cd.x()}, y1{ab.y(), cd.y()}, x2{bc.x(), da.x()}, y2{bc.y(), da.y()};
+  const Lanes x3{cd.x(), ab.x()}, y3{cd.y(), ab.y()};
+  const Lanes l1 = x1 * x1 + y1 * y1, l2 = x2 * x2 + y2 * y2, l3{l1[1], l1[0]};
+  const Lanes at_bd = x1 * y2 - y1 * x2, at_ca = x2 * y3 - y2 * x3;
+  const Lanes bd = at_bd * at_bd.abs(), ca = at_ca * at_ca.abs();  // squares, negative where the corner is
+  const Lanes least_bd = least * l1 * l2, least_ca = least * l2 * l3;
+  return bd[0] > least_bd[0] && bd[1] > least_bd[1] && ca[0] > least_ca[0] && ca[1] > least_ca[1];
+}
+
 }  // namespace qmorph
