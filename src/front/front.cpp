@@ -1,5 +1,6 @@
 #include "front/front.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -8,7 +9,9 @@ namespace qmorph::front {
 namespace {
 
 constexpr unsigned kForced = 0;
-constexpr int kPriorityShift = 16, kLevelShift = 32;
+/// Bits of a key, from the lowest: length class, priority, level.
+constexpr int kPriorityShift = 14, kLevelShift = 16;
+constexpr unsigned kMostLevels = 0xffff;
 
 /// Four classes an octave; exact, so that no rounding of a logarithm decides.
 int length_class(double length) {
@@ -17,7 +20,7 @@ int length_class(double length) {
   return 4 * exponent + int((mantissa - 0.5) * 8);
 }
 
-bool is_forced(std::uint64_t key) { return (key >> kPriorityShift & 0xffff) == kForced; }
+bool is_forced(std::uint32_t key) { return (key >> kPriorityShift & 3) == kForced; }
 
 }  // namespace
 
@@ -62,25 +65,27 @@ State Front::state(Index h) const {
 }
 
 Front::Key Front::key_of(unsigned level, unsigned priority, double length) {
-  constexpr int kLeastClass = -0x8000;
-  return Key(level) << kLevelShift | Key(priority) << kPriorityShift | Key(length_class(length) - kLeastClass);
+  constexpr int kLeastClass = -0x2000;  // below that of the smallest number
+  return std::min(level, kMostLevels) << kLevelShift | priority << kPriorityShift |
+         unsigned(length_class(length) - kLeastClass);
 }
 
 void Front::push(Index h, bool forced) {
   if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
   const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state(h).corners()), mesh_.length(h));
-  if (std::exchange(queued_[h], key) != key) queue_.push({key, h});
+  if (std::exchange(queued_[h], key) != key) queue_.push(Entry(key) << 32 | h);
 }
 
 Index Front::pop() {
   while (!queue_.empty()) {
-    const Entry top = queue_.top();
+    const Key key = Key(queue_.top() >> 32);
+    const auto h = Index(queue_.top());
     queue_.pop();
-    if (queued_[top.half_edge] != top.key) continue;
-    queued_[top.half_edge] = 0;
-    if (!mesh_.is_live_half_edge(top.half_edge) || !contains(top.half_edge)) continue;
-    popped_forced_ = is_forced(top.key);
-    return top.half_edge;
+    if (queued_[h] != key) continue;
+    queued_[h] = 0;
+    if (!mesh_.is_live_half_edge(h) || !contains(h)) continue;
+    popped_forced_ = is_forced(key);
+    return h;
   }
   return kNone;
 }

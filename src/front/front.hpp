@@ -77,19 +77,16 @@ class Front {
  private:
   /// What decides between front edges, the lower the sooner: level, then state, then length, in one number. Lengths of one class
   /// are equal here: neighbours come one after another then, which is good for rows and for caches. Never 0.
-  using Key = std::uint64_t;
+  using Key = std::uint32_t;
   static Key key_of(unsigned level, unsigned priority, double length);
-  struct Entry {
-    Key key;
-    Index half_edge;
-    bool operator>(const Entry& o) const { return key != o.key ? key > o.key : half_edge > o.half_edge; }
-  };
+  /// The key, then the half-edge: the least is next.
+  using Entry = std::uint64_t;
 
   const Mesh& mesh_;
   FrontOptions options_;
   double corner_cosine_;
   LoggedColumn<unsigned> levels_;
-  /// By half-edge: the key of the entry that counts, 0 for none; entries with other keys are passed over.
+  /// By half-edge: the key of the entry that counts, 0 for none; other entries are passed over.
   std::vector<Key> queued_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   bool popped_forced_ = false;

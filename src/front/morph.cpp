@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "front/mark_set.hpp"
 #include "front/step.hpp"
 
 namespace qmorph::front {
@@ -141,25 +142,22 @@ class Morph {
     colours_.join(a, b, loop);
   }
 
+  /// Enters anew the front edges whose states may have changed: those at nodes that moved, and the next to those.
   void reclassify() {
-    // A node that moved changes the states at its neighbours on the front as well.
-    std::sort(step_.moved.begin(), step_.moved.end());
-    step_.moved.erase(std::unique(step_.moved.begin(), step_.moved.end()), step_.moved.end());
-    touched_.clear();
+    moved_.clear(), touched_.clear();
+    std::erase_if(step_.moved, [&](Index v) { return !moved_.insert(v); });
+    const auto touch = [&](Index h) {
+      if (touched_.insert(h / 2)) enter(h);  // of an edge's two sides one at most is on the front
+    };
     for (Index v : step_.moved) {
       if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
       front_.for_edges_at(v, [&](Index h) {
-        touched_.push_back(h);
+        touch(h);
         const bool starts = mesh_.origin(h) == v;
-        const Index neighbour = starts ? mesh_.target(h) : mesh_.origin(h);
-        const bool has_turn =
-            colours_.is_coloured(neighbour) && std::binary_search(step_.moved.begin(), step_.moved.end(), neighbour);
-        if (!has_turn) touched_.push_back(starts ? front_.next(h) : front_.prev(h));
+        const bool has_turn = moved_.contains(starts ? mesh_.target(h) : mesh_.origin(h));
+        if (!has_turn) touch(starts ? front_.next(h) : front_.prev(h));
       });
     }
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-    for (Index e : touched_) enter(e);
     if (forced_ != kNone && front_.contains(forced_)) enter(forced_, true);
     forced_ = kNone;
   }
@@ -276,7 +274,8 @@ class Morph {
   MorphCounts counts_;
   std::size_t steps_ = 0;
   LoggedColumn<bool> is_aside_;
-  std::vector<Index> aside_, touched_;
+  std::vector<Index> aside_;
+  MarkSet moved_, touched_;
   std::vector<std::pair<Index, Index>> joins_;
   Index forced_ = kNone;
   FilmRecorder* recorder_;  ///< or null

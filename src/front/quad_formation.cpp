@@ -10,12 +10,10 @@ Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triang
   const auto is_ring_node = [&](Index v) {
     return std::any_of(ring.begin(), ring.end(), [&](Index r) { return mesh.origin(r) == v; });
   };
-  if (step.face_mark.size() < mesh.face_slots()) step.face_mark.resize(mesh.face_slots(), 0);
-  const unsigned mark = ++step.mark;
-
   std::vector<Index>& inside = step.scratch;
   inside.assign(1, mesh.face(ring[0]));
-  step.face_mark[inside[0]] = mark;
+  step.marked.clear();
+  step.marked.insert(inside[0]);
   for (std::size_t i = 0; i < inside.size(); ++i) {
     const Index start = mesh.half_edge(inside[i]);
     Index h = start;
@@ -23,9 +21,8 @@ Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triang
       const Index beyond = mesh.face(Mesh::twin(h));
       if (!on_ring(h)) {
         if (!mesh.is_triangle(beyond)) return kNone;  // a hole, a quad, a constraint
-        if (step.face_mark[beyond] != mark) {
+        if (step.marked.insert(beyond)) {
           if (inside.size() >= most_triangles) return kNone;
-          step.face_mark[beyond] = mark;
           inside.push_back(beyond);
         }
         const Index v = mesh.origin(h);
@@ -35,7 +32,7 @@ Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triang
     } while (h != start);
   }
   for (Index r : ring)  // the ring must really enclose what was found
-    if (mesh.face(r) == kNone || !mesh.is_triangle(mesh.face(r)) || step.face_mark[mesh.face(r)] != mark) return kNone;
+    if (!mesh.is_triangle(mesh.face(r)) || !step.marked.contains(mesh.face(r))) return kNone;
   return mesh.make_face(ring, inside);
 }
 

@@ -8,6 +8,7 @@
 #include "front/film_recorder.hpp"
 #include "front/front.hpp"
 #include "front/loop_colours.hpp"
+#include "front/mark_set.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -31,8 +32,7 @@ struct Step {
   // Scratch space, kept to avoid allocations.
   std::vector<Index> scratch{};
   std::vector<Spoke> spokes{};
-  std::vector<unsigned> face_mark{};
-  unsigned mark = 0;
+  MarkSet marked{};
 
   StepNotes notes{};  ///< for the film
 };

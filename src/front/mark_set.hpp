@@ -1,0 +1,27 @@
+#pragma once
+/// A set of indices that is emptied in no time: for small sets, many times over.
+
+#include <vector>
+
+#include "qmorph/patch.hpp"
+
+namespace qmorph::front {
+
+class MarkSet {
+ public:
+  void clear() { ++round_; }
+  /// True if i was not in the set.
+  bool insert(Index i) {
+    if (i >= rounds_.size()) rounds_.resize(std::size_t(i) + 1 + i / 2, 0);
+    if (rounds_[i] == round_) return false;
+    rounds_[i] = round_;
+    return true;
+  }
+  bool contains(Index i) const { return i < rounds_.size() && rounds_[i] == round_; }
+
+ private:
+  std::vector<unsigned> rounds_;  ///< by index: the round in which it was put in last
+  unsigned round_ = 1;
+};
+
+}  // namespace qmorph::front
