@@ -33,6 +33,11 @@ Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triang
   }
   for (Index r : ring)  // the ring must really enclose what was found
     if (!mesh.is_triangle(mesh.face(r)) || !step.marked.contains(mesh.face(r))) return kNone;
+  if (ring.size() == 4 && inside.size() == 2) {  // nearly always: one edge goes
+    Index diagonal = mesh.next(ring[0]);
+    if (on_ring(diagonal)) diagonal = mesh.next(diagonal);
+    return mesh.face(mesh.join_faces(diagonal));
+  }
   return mesh.make_face(ring, inside);
 }
 
