@@ -1,6 +1,7 @@
 #include "front/front.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -13,12 +14,8 @@ constexpr unsigned kForced = 0;
 constexpr int kPriorityShift = 14, kLevelShift = 16;
 constexpr unsigned kMostLevels = 0xffff;
 
-/// Four classes an octave; exact, so that no rounding of a logarithm decides.
-int length_class(double length) {
-  int exponent = 0;
-  const double mantissa = std::frexp(length, &exponent);  // in [0.5, 1)
-  return 4 * exponent + int((mantissa - 0.5) * 8);
-}
+/// Four classes an octave: exponent and leading two bits of the mantissa. Exact, so that no rounding of a logarithm decides.
+unsigned length_class(double length) { return unsigned(std::bit_cast<std::uint64_t>(length) >> 50); }
 
 bool is_forced(std::uint32_t key) { return (key >> kPriorityShift & 3) == kForced; }
 
@@ -53,21 +50,18 @@ bool Front::is_angle_below(Index incoming, Index outgoing, double limit) const {
 }
 
 State Front::state(Index h) const {
-  // Compared by cosines: no inverse trigonometry, whose last bit differs between machines.
+  // Compared by squares of cosines with their signs: no inverse trigonometry, whose last bit differs between machines.
   const auto is_corner = [&](Index incoming, Index outgoing) {
     const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
-    if (cross(ahead, back) < 0) return false;
-    const double dot = ahead.dot(back);
-    if (cross(ahead, back) == 0 && dot > 0) return false;
-    return dot > corner_cosine_ * std::sqrt(ahead.squaredNorm() * back.squaredNorm());
+    const double area = cross(ahead, back), dot = ahead.dot(back);
+    if (area < 0 || (area == 0 && dot > 0)) return false;
+    return dot * std::abs(dot) > corner_cosine_ * std::abs(corner_cosine_) * ahead.squaredNorm() * back.squaredNorm();
   };
   return {is_corner(prev(h), h), is_corner(h, next(h))};
 }
 
 Front::Key Front::key_of(unsigned level, unsigned priority, double length) {
-  constexpr int kLeastClass = -0x2000;  // below that of the smallest number
-  return std::min(level, kMostLevels) << kLevelShift | priority << kPriorityShift |
-         unsigned(length_class(length) - kLeastClass);
+  return std::min(level, kMostLevels) << kLevelShift | priority << kPriorityShift | length_class(length);
 }
 
 void Front::push(Index h, bool forced) {
