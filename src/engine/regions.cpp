@@ -1,7 +1,6 @@
 #include "engine/regions.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "geometry/z_curve.hpp"
 #include "qmorph/error.hpp"
@@ -9,71 +8,91 @@
 namespace qmorph {
 namespace {
 
-/// Union-find; the smallest member is the root, so that numbering does not depend on the order of unions.
-class Sets {
+/// Sides of triangles: side c runs from the node of corner c to that of the next corner. Corners of triangle k are 3 k, 3 k + 1, 3 k + 2.
+class Sides {
  public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+  Sides(const Patch& patch, const std::vector<Index>& order)
+      : first_(patch.points.size(), kNone), following_(3 * order.size()), opposite_(3 * order.size(), kNone) {
+    node_.reserve(3 * order.size());
+    for (Index t : order) node_.insert(node_.end(), patch.triangles[t].begin(), patch.triangles[t].end());
+    for (Index c = 0; c < node_.size(); ++c) add(c, patch);
+    for (const auto& [a, b] : patch.constraints) cut(find(a, b));
   }
-  void unite(Index i, Index j) {
-    i = root(i), j = root(j);
-    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-  }
+
+  static Index next(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
+  static Index previous(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
+  Index node(Index c) const { return node_[c]; }
+  /// The same edge's side in the other triangle; kNone on the boundary and on a constraint.
+  Index opposite(Index c) const { return opposite_[c]; }
 
  private:
-  std::vector<Index> parent_;
+  /// The side between a and b, in either direction, that came first. O(valence): among the sides from one lower node, the sum of both
+  /// nodes tells which it is.
+  Index find(Index a, Index b) const {
+    Index s = first_[std::min(a, b)];
+    while (s != kNone && node_[s] + node_[next(s)] != a + b) s = following_[s];
+    return s;
+  }
+
+  void add(Index c, const Patch& patch) {
+    const Index a = node_[c], b = node_[next(c)], other = find(a, b);
+    if (other == kNone) {
+      following_[c] = first_[std::min(a, b)];
+      first_[std::min(a, b)] = c;
+      return;
+    }
+    if (node_[other] == a || opposite_[other] != kNone)
+      throw SurfaceError("two triangles lie on the same side of the edge from " + describe(patch.points[a]) + " to " +
+                         describe(patch.points[b]) + "; remove overlapping triangles or orient them alike");
+    opposite_[c] = other;
+    opposite_[other] = c;
+  }
+
+  void cut(Index c) {
+    if (c == kNone) return;
+    if (opposite_[c] != kNone) opposite_[opposite_[c]] = kNone;
+    opposite_[c] = kNone;
+  }
+
+  std::vector<Index> node_;               ///< by corner
+  std::vector<Index> first_, following_;  ///< sides in a chain from the lower node of each edge, one for each edge
+  std::vector<Index> opposite_;           ///< by side
 };
 
-/// A side of a triangle: corner 3 * triangle + i, from that corner's node to the next corner's.
-struct Sides {
-  explicit Sides(const Patch& patch) : patch_(patch), start_(patch.points.size() + 1, 0) {
-    for (const auto& t : patch.triangles)
-      for (Index v : t) ++start_[v + 1];
-    for (std::size_t v = 0; v + 1 < start_.size(); ++v) start_[v + 1] += start_[v];
-    by_origin_.resize(patch.triangles.size() * 3);
-    std::vector<Index> fill(start_.begin(), start_.end() - 1);
-    for (Index c = 0; c < by_origin_.size(); ++c) by_origin_[fill[from(c)]++] = c;
-  }
-  Index from(Index corner) const { return patch_.triangles[corner / 3][corner % 3]; }
-  Index to(Index corner) const { return patch_.triangles[corner / 3][(corner + 1) % 3]; }
-  /// The side that runs from a to b, or kNone. O(valence). `count` gets how many there are.
-  Index find(Index a, Index b, int* count = nullptr) const {
-    Index found = kNone;
-    int n = 0;
-    for (Index k = start_[a]; k < start_[a + 1]; ++k)
-      if (to(by_origin_[k]) == b) {
-        if (found == kNone) found = by_origin_[k];
-        ++n;
+/// The number of the region of each triangle; regions are numbered as they come. `sizes` gets their triangles.
+std::vector<Index> number_regions(const Sides& sides, Index triangles, std::vector<std::size_t>& sizes) {
+  std::vector<Index> region(triangles, kNone), waiting;
+  for (Index first = 0; first < triangles; ++first) {
+    if (region[first] != kNone) continue;
+    const auto number = Index(sizes.size());
+    sizes.push_back(0);
+    region[first] = number;
+    waiting.push_back(first);
+    while (!waiting.empty()) {
+      const Index t = waiting.back();
+      waiting.pop_back();
+      ++sizes[number];
+      for (Index c = 3 * t; c < 3 * t + 3; ++c) {
+        if (sides.opposite(c) == kNone) continue;
+        const Index beyond = sides.opposite(c) / 3;
+        if (region[beyond] == kNone) region[beyond] = number, waiting.push_back(beyond);
       }
-    if (count) *count = n;
-    return found;
+    }
   }
-  Index count() const { return Index(by_origin_.size()); }
-
- private:
-  const Patch& patch_;
-  std::vector<Index> start_, by_origin_;
-};
-
-std::vector<bool> constrained_sides(const Patch& patch, const Sides& sides) {
-  std::vector<bool> constrained(sides.count(), false);
-  for (const auto& [a, b] : patch.constraints)
-    for (Index side : {sides.find(a, b), sides.find(b, a)})
-      if (side != kNone) constrained[side] = true;
-  return constrained;
+  return region;
 }
 
-void require_manifold(const Patch& patch, const Sides& sides) {
-  for (Index c = 0; c < sides.count(); ++c) {
-    int count = 0;
-    sides.find(sides.from(c), sides.to(c), &count);
-    if (count > 1)
-      throw SurfaceError("two triangles lie on the same side of the edge from " +
-                         describe(patch.points[sides.from(c)]) + " to " + describe(patch.points[sides.to(c)]) +
-                         "; remove overlapping triangles or orient them alike");
+/// Calls visit(corner) for corner c and all others of its fan.
+template <class Visit>
+void for_fan(const Sides& sides, Index c, const Visit& visit) {
+  visit(c);
+  Index e = sides.opposite(c);
+  for (; e != kNone; e = sides.opposite(e)) {
+    e = Sides::next(e);
+    if (e == c) return;  // all round
+    visit(e);
   }
+  for (e = c; (e = sides.opposite(Sides::previous(e))) != kNone;) visit(e);
 }
 
 /// What lies close together on the surface shall do so in memory, however the mesher has numbered it: on a million triangles in
@@ -89,53 +108,40 @@ std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& pl
 }  // namespace
 
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points) {
-  const Sides sides(patch);
-  require_manifold(patch, sides);
-  const std::vector<bool> constrained = constrained_sides(patch, sides);
-  const auto triangles = Index(patch.triangles.size());
-
-  // Corners that belong to one fan are joined across every edge that is not cut.
-  Sets fans(triangles * 3), together(triangles);
-  std::vector<bool> open(triangles * 3, true);
-  for (Index c = 0; c < sides.count(); ++c) {
-    if (constrained[c]) continue;
-    const Index other = sides.find(sides.to(c), sides.from(c));
-    if (other == kNone) continue;
-    open[c] = false;
-    const Index c_next = c - c % 3 + (c + 1) % 3, other_next = other - other % 3 + (other + 1) % 3;
-    fans.unite(c, other_next);
-    fans.unite(c_next, other);
-    together.unite(c / 3, other / 3);
-  }
+  const std::vector<Index> order = spatial_order(patch, plane_points);
+  const Sides sides(patch, order);
+  std::vector<std::size_t> sizes;
+  const std::vector<Index> region_of = number_regions(sides, Index(order.size()), sizes);
 
   std::vector<bool> must_stay(patch.points.size(), false);
   for (Index v : patch.fixed) must_stay[v] = true;
   for (const auto& [a, b] : patch.constraints) must_stay[a] = must_stay[b] = true;
 
-  std::vector<Region> regions;
-  std::vector<Index> region_of(triangles, kNone), vertex_of(triangles * 3, kNone);
-  for (Index t : spatial_order(patch, plane_points)) {
-    const Index root = together.root(t);
-    if (region_of[root] == kNone) {
-      region_of[root] = Index(regions.size());
-      regions.emplace_back();
-    }
-    Region& region = regions[region_of[root]];
+  std::vector<Region> regions(sizes.size());
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    regions[r].triangles.reserve(sizes[r]);
+    regions[r].row.reserve(sizes[r]);
+    regions[r].open.reserve(3 * sizes[r]);
+  }
+  std::vector<Index> vertex_of(3 * order.size(), kNone);
+  for (Index k = 0; k < order.size(); ++k) {
+    Region& region = regions[region_of[k]];
     std::array<Index, 3> corners{};
     for (Index i = 0; i < 3; ++i) {
-      const Index c = 3 * t + i, fan = fans.root(c), node = patch.triangles[t][i];
-      if (vertex_of[fan] == kNone) {
-        vertex_of[fan] = Index(region.points.size());
+      const Index c = 3 * k + i, node = sides.node(c);
+      if (vertex_of[c] == kNone) {
+        const auto vertex = Index(region.points.size());
+        for_fan(sides, c, [&](Index e) { vertex_of[e] = vertex; });
         region.points.push_back(plane_points[node]);
         region.node.push_back(node);
-        if (must_stay[node]) region.fixed.push_back(vertex_of[fan]);
+        if (must_stay[node]) region.fixed.push_back(vertex);
       }
-      corners[i] = vertex_of[fan];
-      region.boundary_sides += open[c];
-      region.open.push_back(open[c]);
+      corners[i] = vertex_of[c];
+      region.open.push_back(sides.opposite(c) == kNone);
+      region.boundary_sides += region.open.back();
     }
     region.triangles.push_back(corners);
-    region.row.push_back(t);
+    region.row.push_back(order[k]);
   }
   return regions;
 }

@@ -1,6 +1,6 @@
 #include "geometry/z_curve.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace qmorph {
@@ -12,6 +12,20 @@ std::uint64_t spread(std::uint64_t x) {
   x = (x | (x << 4)) & 0x0f0f0f0f;
   x = (x | (x << 2)) & 0x33333333;
   return (x | (x << 1)) & 0x55555555;
+}
+
+/// Sorts by the upper 32 bits, and keeps the order of what is equal there: a counting sort for each digit.
+void sort_by_place(std::vector<std::uint64_t>& keys) {
+  constexpr int kDigit = 11;  // bits
+  std::vector<std::uint64_t> sorted(keys.size());
+  for (int shift = 32; shift < 64; shift += kDigit) {
+    const auto digit = [&](std::uint64_t key) { return (key >> shift) & ((1u << kDigit) - 1); };
+    std::array<std::size_t, (1u << kDigit) + 1> start{};
+    for (std::uint64_t key : keys) ++start[digit(key) + 1];
+    for (std::size_t d = 0; d + 1 < start.size(); ++d) start[d + 1] += start[d];
+    for (std::uint64_t key : keys) sorted[start[digit(key)]++] = key;
+    keys.swap(sorted);
+  }
 }
 
 }  // namespace
@@ -29,7 +43,7 @@ std::vector<Index> along_z_curve(const std::vector<Vec2>& points) {
     const std::uint64_t place = spread(std::uint64_t(cell.x())) | spread(std::uint64_t(cell.y())) << 1;
     keys.push_back(place << 32 | i);
   }
-  std::sort(keys.begin(), keys.end());
+  sort_by_place(keys);
   std::vector<Index> order;
   order.reserve(keys.size());
   for (std::uint64_t key : keys) order.push_back(Index(key));

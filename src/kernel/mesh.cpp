@@ -15,16 +15,6 @@ Index corners_of(const std::array<Index, N>& face) {
   return face[N - 1] == kNone ? N - 1 : N;
 }
 
-/// Where the half-edges of each vertex start in an array sorted by origin: a counting sort.
-template <std::size_t N>
-std::vector<Index> offsets_by_origin(Index vertices, const std::vector<std::array<Index, N>>& faces) {
-  std::vector<Index> start(vertices + 1, 0);
-  for (const auto& face : faces)
-    for (Index i = 0; i < corners_of(face); ++i) ++start[face[i] + 1];
-  for (Index v = 0; v < vertices; ++v) start[v + 1] += start[v];
-  return start;
-}
-
 /// sign(area) area^2 / product: a squared sine with the sign of the sine.
 double signed_root(double area, double product) {
   if (!(product > 0)) return 0;
@@ -76,26 +66,27 @@ void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vect
   faces_.resize(faces.size());
   half_edges_.reserve(faces.size() * N + faces.size() / 8 + 64);  // some room, so that edits do not move all at once
 
-  // Half-edges of each origin, to find the other half of an edge among a handful.
-  const std::vector<Index> start = offsets_by_origin(vertex_slots(), faces);
-  std::vector<Index> fill(start.begin(), start.end() - 1);
-  std::vector<std::pair<Index, Index>> leaving(start.back());  // (target, half-edge)
+  // Edges in a chain from their lower vertex, to find the other half of one among a handful.
+  std::vector<Index> first(vertices_.size(), kNone), following;  // following: by edge
+  following.reserve(half_edges_.capacity() / 2);
   for (Index f = 0; f < faces.size(); ++f) {
     const Index degree = corners_of(faces[f]);
     std::array<Index, N> h{};
     for (Index i = 0; i < degree; ++i) {
       const Index a = faces[f][i], b = faces[f][(i + 1) % degree];
       const bool stays_open = is_open(N * f + i);
-      h[i] = kNone;
-      for (Index k = start[b]; k < fill[b] && !stays_open; ++k)
-        if (leaving[k].first == a) h[i] = twin(leaving[k].second);
-      if (h[i] == kNone) {
-        h[i] = Index(half_edges_.size());
-        half_edges_.resize(half_edges_.size() + 2);
-        half_edges_[h[i]].origin = a;
-        half_edges_[h[i] ^ 1].origin = b;
+      Index& start = first[std::min(a, b)];
+      Index e = stays_open ? kNone : start;
+      while (e != kNone && !(origin(e) == b && target(e) == a)) e = following[e / 2];
+      if (e != kNone) {
+        h[i] = twin(e);
+      } else {
+        h[i] = half_edge_slots();
+        half_edges_.push_back({a, kNone, kNone, kNone});
+        half_edges_.push_back({b, kNone, kNone, kNone});
+        following.push_back(start);
+        if (!stays_open) start = h[i];
       }
-      leaving[fill[a]++] = {stays_open ? kNone : b, h[i]};
       vertices_[a].out = h[i];
     }
     for (Index i = 0; i < degree; ++i) {
@@ -105,14 +96,14 @@ void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vect
     }
     faces_[f] = {h[0], degree};
   }
+  std::vector<Index> outside;
   for (Index h = 0; h < half_edges_.size(); ++h)
-    if (half_edges_[h].face == kNone) vertices_[half_edges_[h].origin].out = h;
-  for (Index h = 0; h < half_edges_.size(); ++h)
-    if (half_edges_[h].face == kNone) {
-      const Index following = vertices_[target(h)].out;
-      half_edges_[h].next = following;
-      half_edges_[following].prev = h;
-    }
+    if (face(h) == kNone) outside.push_back(h), vertices_[origin(h)].out = h;
+  for (Index h : outside) {
+    const Index following_h = out(target(h));
+    half_edges_[h].next = following_h;
+    half_edges_[following_h].prev = h;
+  }
 }
 
 Index Mesh::valence(Index v) const {
