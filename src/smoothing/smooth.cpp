@@ -136,18 +136,31 @@ class Passes {
     block_.assign(mesh_.vertex_slots(), kNone);
     for (std::size_t i = 0; i < order.size(); ++i) block_[nodes[order[i]]] = Index(i / kBlock);
     blocks_.resize(order.size() / kBlock + 1);
-    for (Index i : order) (is_inside(nodes[i]) ? blocks_[block_[nodes[i]]] : between_).push_back(nodes[i]);
+    const std::vector<char> is_between = find_between();
+    for (Index i : order) (is_between[nodes[i]] ? between_ : blocks_[block_[nodes[i]]]).push_back(nodes[i]);
   }
 
-  bool is_inside(Index v) const {
-    const auto is_foreign = [&](Index u) { return block_[u] != kNone && block_[u] != block_[v]; };
-    Index h = mesh_.out(v);
-    do {
-      if (is_foreign(mesh_.target(h))) return false;
-      if (mesh_.face(h) != kNone && is_foreign(mesh_.target(mesh_.next(h)))) return false;
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
-    return true;
+  /// By node: whether a face has it and a node of another block.
+  std::vector<char> find_between() const {
+    std::vector<char> is_between(mesh_.vertex_slots(), 0);
+    for (Index f = 0; f < mesh_.face_slots(); ++f) {
+      if (!mesh_.is_live_face(f)) continue;
+      const Index start = mesh_.half_edge(f);
+      Index one = kNone, h = start;
+      bool several = false;
+      do {
+        const Index block = block_[mesh_.origin(h)];
+        if (block != kNone && one != kNone && block != one) several = true;
+        if (block != kNone) one = block;
+        h = mesh_.next(h);
+      } while (h != start);
+      if (!several) continue;
+      do {
+        is_between[mesh_.origin(h)] = 1;
+        h = mesh_.next(h);
+      } while (h != start);
+    }
+    return is_between;
   }
 
   /// True if a node moved.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "engine/parts/cutting_line.hpp"
 #include "engine/parts/interface.hpp"
+#include "parallel/for_each.hpp"
 
 namespace qmorph {
 namespace {
@@ -22,6 +24,17 @@ Vec2 middle_of(const Mesh& mesh, Index f) {
   return (mesh.point(mesh.origin(h)) + mesh.point(mesh.target(h)) + mesh.point(mesh.origin(mesh.prev(h)))) / 3;
 }
 
+/// A part that may still be cut.
+struct Part {
+  std::vector<Index> faces;    ///< ascending
+  std::vector<Index> outline;  ///< half-edges of the faces
+};
+
+void make_unique(std::vector<Index>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 class Dividing {
  public:
   Dividing(Mesh& mesh, std::size_t triangles) : mesh_(mesh), triangles_(double(triangles)) {
@@ -30,13 +43,17 @@ class Dividing {
   }
 
   Division run() {
-    std::vector<Index> all;
+    Part& whole = parts_.emplace_back();
     for (Index f = 0; f < mesh_.face_slots(); ++f)
-      if (mesh_.is_live_face(f)) all.push_back(f), division_.part[f] = 0;
-    waiting_.emplace_back(0, std::move(all));
-    for (std::size_t i = 0; i < waiting_.size(); ++i) {
-      const auto [part, faces] = std::move(waiting_[i]);
-      if (double(faces.size()) > kTooLarge * triangles_) cut(part, faces);
+      if (mesh_.is_live_face(f)) whole.faces.push_back(f), division_.part[f] = 0;
+    for (Index h = 0; h < mesh_.half_edge_slots(); ++h)
+      if (mesh_.is_live_half_edge(h) && mesh_.face(h) == kNone) whole.outline.push_back(Mesh::twin(h));
+    std::vector<Index> waiting{0};
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      const Index part = waiting[i];
+      if (double(parts_[part].faces.size()) <= kTooLarge * triangles_ || !cut(part)) continue;
+      waiting.push_back(part);
+      waiting.push_back(division_.parts - 1);
     }
     if (division_.parts > 1) settle_pieces();
     if (division_.parts > 1) finish_interfaces(mesh_, division_);
@@ -44,31 +61,58 @@ class Dividing {
   }
 
  private:
-  void cut(Index part, const std::vector<Index>& faces) {
-    const Line line = choose_line(part, faces);
-    for (Index f : faces) other_[f] = line.distance(middle_of(mesh_, f)) >= 0;
-    even_out(part, faces);
-    std::vector<Index> sides[2];
-    for (Index f : faces) sides[int(other_[f])].push_back(f);
-    if (sides[0].empty() || sides[1].empty()) return;
-    for (Index f : sides[1]) division_.part[f] = division_.parts;
-    straighten_interfaces(mesh_, division_, nodes_between(faces));
-    waiting_.emplace_back(part, std::move(sides[0]));
-    waiting_.emplace_back(division_.parts++, std::move(sides[1]));
+  /// Cuts a part in two: false if that leaves nothing on one side.
+  bool cut(Index part) {
+    const std::vector<Index> faces = std::move(parts_[part].faces), outline = std::move(parts_[part].outline);
+    const std::vector<Index> interface = interface_along(choose_line(faces, outline), part, faces);
+    Part sides[2];
+    for (Index f : faces) sides[int(other_[f])].faces.push_back(f);
+    if (sides[0].faces.empty() || sides[1].faces.empty()) return false;
+    for (Index f : sides[1].faces) division_.part[f] = division_.parts;
+    for (const auto& edges : {outline, interface})
+      for (Index h : edges) sides[int(other_[mesh_.face(h)])].outline.push_back(h);
+    std::vector<Index> nodes;
+    for (Index h : interface) nodes.push_back(mesh_.origin(h));
+    make_unique(nodes);
+    straighten_interfaces(mesh_, division_, nodes);
+    parts_[part] = std::move(sides[0]);
+    parts_.push_back(std::move(sides[1]));
+    ++division_.parts;
+    return true;
   }
 
-  Line choose_line(Index part, const std::vector<Index>& faces) const {
+  Line choose_line(const std::vector<Index>& faces, const std::vector<Index>& outline) const {
     constexpr std::size_t kSamples = 4096;
     std::vector<Vec2> samples;
     for (std::size_t i = 0; i < faces.size(); i += 1 + faces.size() / kSamples)
       samples.push_back(middle_of(mesh_, faces[i]));
-    std::vector<std::pair<Vec2, Vec2>> outline;
-    for (Index f : faces)
-      for_each_side(f, [&](Index h) {
-        if (part_beyond(h) != part) outline.emplace_back(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)));
-      });
+    std::vector<std::pair<Vec2, Vec2>> segments;
+    for (Index h : outline) segments.emplace_back(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)));
     const double parts = std::max(2.0, std::round(double(faces.size()) / triangles_));
-    return choose_cutting_line(samples, outline, std::floor(parts / 2) / parts);
+    return choose_cutting_line(samples, segments, std::floor(parts / 2) / parts);
+  }
+
+  /// Sets `other_` of the part's faces: beyond the line, but for teeth. Returns the half-edges between the two sides.
+  std::vector<Index> interface_along(const Line& line, Index part, const std::vector<Index>& faces) {
+    std::vector<Index> on_line;
+    for (Index f : faces) {
+      const Vec2 middle = middle_of(mesh_, f);
+      other_[f] = line.distance(middle) >= 0;
+      const auto lies_beyond = [&](Index h) { return char(line.distance(mesh_.point(mesh_.origin(h))) >= 0); };
+      bool straddles = false;
+      for_each_side(f, [&](Index h) { straddles = straddles || lies_beyond(h) != other_[f]; });
+      if (straddles) on_line.push_back(f);
+    }
+    even_out(part, on_line);  // two faces on different sides: the line passes through one of them, or one has moved
+    std::vector<Index> interface;
+    for (Index f : on_line)
+      for_each_side(f, [&](Index h) {
+        if (part_beyond(h) != part || other_[f] == other_[mesh_.face(Mesh::twin(h))]) return;
+        interface.push_back(h);
+        interface.push_back(Mesh::twin(h));
+      });
+    make_unique(interface);
+    return interface;
   }
 
   template <class Visit>
@@ -83,21 +127,26 @@ class Dividing {
   }
 
   /// A triangle with two neighbours on the other side goes there: no teeth. Each move shortens the interface.
-  void even_out(Index part, const std::vector<Index>& faces) {
+  /// Appends what has moved to `on_line`.
+  void even_out(Index part, std::vector<Index>& on_line) {
     const auto is_tooth = [&](Index f) {
       int others = 0;
       for_each_side(
           f, [&](Index h) { others += part_beyond(h) == part && other_[mesh_.face(Mesh::twin(h))] != other_[f]; });
       return others >= 2;
     };
-    std::vector<Index> teeth;
-    for (Index f : faces)
-      if (is_tooth(f)) teeth.push_back(f);
+    std::vector<Index> teeth = on_line;
+    for (Index f : on_line)
+      for_each_side(f, [&](Index h) {
+        if (part_beyond(h) == part) teeth.push_back(mesh_.face(Mesh::twin(h)));
+      });
+    make_unique(teeth);
     while (!teeth.empty()) {
       const Index f = teeth.back();
       teeth.pop_back();
       if (!is_tooth(f)) continue;
       other_[f] = !other_[f];
+      on_line.push_back(f);
       for_each_side(f, [&](Index h) {
         if (part_beyond(h) == part) teeth.push_back(mesh_.face(Mesh::twin(h)));
       });
@@ -106,11 +155,16 @@ class Dividing {
 
   /// A line may cut a part into several pieces: a large one becomes a part of its own, crumbs go to a neighbour.
   void settle_pieces() {
-    std::vector<std::vector<Index>> pieces;
+    std::vector<std::vector<std::vector<Index>>> pieces_of(division_.parts);
     std::vector<char> seen(mesh_.face_slots(), 0);
-    for (Index f = 0; f < mesh_.face_slots(); ++f)
-      if (mesh_.is_live_face(f) && !seen[f]) pieces.push_back(piece_around(f, seen));
-    std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    parallel::for_each_index(division_.parts, [&](std::size_t part) {
+      for (Index f : parts_[part].faces)
+        if (!seen[f]) pieces_of[part].push_back(piece_around(f, seen));
+    });
+    std::vector<std::vector<Index>> pieces;
+    for (auto& some : pieces_of) std::move(some.begin(), some.end(), std::back_inserter(pieces));
+    std::sort(pieces.begin(), pieces.end(),
+              [](const auto& a, const auto& b) { return a.size() != b.size() ? a.size() > b.size() : a[0] < b[0]; });
     std::vector<char> is_taken(division_.parts, 0);
     for (const auto& piece : pieces) {
       const Index part = division_.part[piece[0]];
@@ -146,24 +200,11 @@ class Dividing {
     return most == sides.end() ? own : most->first;
   }
 
-  /// Nodes of the interfaces among these faces.
-  std::vector<Index> nodes_between(const std::vector<Index>& faces) const {
-    std::vector<Index> nodes;
-    for (Index f : faces)
-      for_each_side(f, [&](Index h) {
-        const Index g = mesh_.face(Mesh::twin(h));
-        if (division_.is_interface(mesh_, h) && other_[f] != other_[g]) nodes.push_back(mesh_.origin(h));
-      });
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    return nodes;
-  }
-
   Mesh& mesh_;
   const double triangles_;
   Division division_;
-  std::vector<char> other_;                                    ///< by face: which side of the line
-  std::vector<std::pair<Index, std::vector<Index>>> waiting_;  ///< parts that may be too large
+  std::vector<char> other_;  ///< by face: which side of the line
+  std::vector<Part> parts_;
 };
 
 }  // namespace

@@ -112,10 +112,24 @@ struct Tree {
   std::vector<Index> parent, longest;  ///< of each part; kNone at the root
 };
 
-Tree span_parts(const Mesh& mesh, const Division& division) {
+/// Half-edges of all interfaces, ascending. The parts with an odd number of sides are marked in `odd`.
+std::vector<Index> find_interfaces(const Mesh& mesh, const Division& division, std::vector<char>& odd) {
+  std::vector<Index> interface;
+  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {
+    if (!mesh.is_live_half_edge(h)) continue;
+    const Index f = mesh.face(h), g = mesh.face(Mesh::twin(h));
+    const Index left = f == kNone ? kNone : division.part[f], right = g == kNone ? kNone : division.part[g];
+    if (left == right) continue;
+    if (left != kNone) odd[left] ^= 1;
+    if (right != kNone) odd[right] ^= 1;
+    if (left != kNone && right != kNone) interface.insert(interface.end(), {h, Mesh::twin(h)});
+  }
+  return interface;
+}
+
+Tree span_parts(const Mesh& mesh, const Division& division, const std::vector<Index>& interface) {
   std::vector<std::map<Index, Index>> neighbours(division.parts);  // part -> the longest edge to it
-  for (Index h = 0; h < mesh.half_edge_slots(); ++h) {
-    if (!mesh.is_live_half_edge(h) || !division.is_interface(mesh, h)) continue;
+  for (Index h : interface) {
     auto& longest = neighbours[division.part[mesh.face(h)]];
     const auto [at, is_new] = longest.emplace(division.part[mesh.face(Mesh::twin(h))], h);
     if (!is_new && mesh.length(h) > mesh.length(at->second)) at->second = h;
@@ -130,39 +144,31 @@ Tree span_parts(const Mesh& mesh, const Division& division) {
   return tree;
 }
 
-std::vector<char> odd_parts(const Mesh& mesh, const Division& division) {
-  std::vector<char> odd(division.parts, 0);
-  for (Index h = 0; h < mesh.half_edge_slots(); ++h) {
-    if (!mesh.is_live_half_edge(h) || mesh.face(h) == kNone) continue;
-    if (mesh.is_boundary_edge(h) || division.is_interface(mesh, h)) odd[division.part[mesh.face(h)]] ^= 1;
-  }
-  return odd;
-}
-
 }  // namespace
 
 void straighten_interfaces(Mesh& mesh, const Division& division, const std::vector<Index>& nodes) {
-  const std::vector<Index> around = nodes_around(mesh, nodes);
+  std::vector<Index> around = nodes_around(mesh, nodes);
+  std::erase_if(around, [&](Index v) { return !mesh.is_free(v) || is_on_interface(mesh, division, v); });
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Index v : nodes)
       if (mesh.is_free(v)) move_towards(mesh, v, straight_position(mesh, division, v));
-    for (Index v : around)
-      if (mesh.is_free(v) && !is_on_interface(mesh, division, v)) smoothing::relax_node(mesh, v);
+    for (Index v : around) smoothing::relax_node(mesh, v);
   }
 }
 
 void finish_interfaces(Mesh& mesh, Division& division) {
-  const Tree tree = span_parts(mesh, division);
-  std::vector<char> odd = odd_parts(mesh, division);
+  std::vector<char> odd(division.parts, 0);
+  const std::vector<Index> interface = find_interfaces(mesh, division, odd);
+  for (Index h : interface) division.interface.push_back(mesh.origin(h));
+  const Tree tree = span_parts(mesh, division, interface);
   for (std::size_t i = tree.order.size(); i-- > 1;) {
     const Index part = tree.order[i];
     if (!odd[part]) continue;
     const Index node = split_interface_edge(mesh, division, tree.longest[part]);
+    division.interface.push_back(node);
     straighten_interfaces(mesh, division, along_interfaces(mesh, division, node));
     odd[tree.parent[part]] ^= 1;
   }
-  for (Index h = 0; h < mesh.half_edge_slots(); ++h)
-    if (mesh.is_live_half_edge(h) && division.is_interface(mesh, h)) division.interface.push_back(mesh.origin(h));
   std::sort(division.interface.begin(), division.interface.end());
   division.interface.erase(std::unique(division.interface.begin(), division.interface.end()), division.interface.end());
 }

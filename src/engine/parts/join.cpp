@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "parallel/for_each.hpp"
+
 namespace qmorph {
 namespace {
 
 using kernel::Mesh;
 
-/// Gives the vertices of parts numbers: one for each fan of the part's triangles at a node.
+/// Gives the vertices of parts numbers: one for each fan of the part's triangles at a node. Parts may be worked on side by side.
 class Fans {
  public:
   Fans(const Mesh& mesh, const Division& division)
@@ -45,14 +47,11 @@ class Fans {
 
 std::pair<Index, Index> edge_of(Index a, Index b) { return std::minmax(a, b); }
 
-}  // namespace
-
-std::vector<Region> take_apart(const Mesh& mesh, const Division& division) {
-  std::vector<Region> regions(division.parts);
-  Fans fans(mesh, division);
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f)) continue;
-    Region& region = regions[division.part[f]];
+Region region_of(const Mesh& mesh, Fans& fans, const std::vector<Index>& faces) {
+  Region region;
+  region.triangles.reserve(faces.size());
+  region.open.reserve(3 * faces.size());
+  for (Index f : faces) {
     std::array<Index, 3> corners{};
     Index h = mesh.half_edge(f);
     for (Index& corner : corners) {
@@ -63,10 +62,34 @@ std::vector<Region> take_apart(const Mesh& mesh, const Division& division) {
     }
     region.triangles.push_back(corners);
   }
+  return region;
+}
+
+/// The order of the faces by their lowest corner: what lies close together in the points does so in the faces. A counting sort.
+std::vector<Index> order_by_lowest(const std::vector<std::array<Index, 4>>& faces, std::size_t points) {
+  std::vector<Index> start(points + 1, 0), order(faces.size());
+  const auto lowest = [](const auto& face) { return *std::min_element(face.begin(), face.end()); };
+  for (const auto& face : faces) ++start[lowest(face) + 1];
+  for (std::size_t v = 0; v < points; ++v) start[v + 1] += start[v];
+  for (Index f = 0; f < faces.size(); ++f) order[start[lowest(faces[f])]++] = f;
+  return order;
+}
+
+}  // namespace
+
+std::vector<Region> take_apart(const Mesh& mesh, const Division& division) {
+  std::vector<std::vector<Index>> faces(division.parts);
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f)) faces[division.part[f]].push_back(f);
+  std::vector<Region> regions(division.parts);
+  Fans fans(mesh, division);
+  parallel::for_each_index(regions.size(),
+                           [&](std::size_t part) { regions[part] = region_of(mesh, fans, faces[part]); });
   return regions;
 }
 
 Whole::Whole(const Mesh& mesh, const Division& division) {
+  points.reserve(mesh.vertex_slots());
   for (Index v = 0; v < mesh.vertex_slots(); ++v) {
     points.push_back(mesh.point(v));
     if (mesh.is_live_vertex(v) && mesh.is_fixed(v)) fixed.push_back(v);
@@ -85,38 +108,48 @@ PartElements::PartElements(const std::vector<Index>& node, const Mesh& mesh) {
     points.push_back(mesh.point(v));
     vertex.push_back(v < node.size() ? node[v] : kNone);
   }
+  std::vector<std::array<Index, 4>> unsorted;
+  std::vector<Index> slot;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f)) continue;
     std::array<Index, 4> face{kNone, kNone, kNone, kNone};
     Index h = mesh.half_edge(f);
-    for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) {
-      face[i] = row[mesh.origin(h)];
-      boundary.push_back(mesh.is_boundary_edge(h));
-    }
-    faces.push_back(face);
-    boundary.resize(4 * faces.size(), false);
+    for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) face[i] = row[mesh.origin(h)];
+    unsorted.push_back(face);
+    slot.push_back(f);
+  }
+  faces.reserve(unsorted.size());
+  for (Index k : order_by_lowest(unsorted, points.size())) {
+    Index h = mesh.half_edge(slot[k]);
+    for (Index i = 0; i < mesh.degree(slot[k]); ++i, h = mesh.next(h))
+      if (mesh.is_boundary_edge(h)) boundary.push_back(4 * faces.size() + i);
+    faces.push_back(unsorted[k]);
   }
 }
 
 Mesh join(const Whole& whole, const std::vector<PartElements>& parts) {
   std::vector<Vec2> points = whole.points;
   std::vector<std::array<Index, 4>> faces;
-  std::vector<bool> open;
-  const auto is_interface = [&](Index a, Index b) {
-    return std::binary_search(whole.interface_edges.begin(), whole.interface_edges.end(), edge_of(a, b));
-  };
+  std::size_t count = 0;
+  for (const PartElements& part : parts) count += part.faces.size();
+  faces.reserve(count);
+  std::vector<bool> open(4 * count, false);
   for (const PartElements& part : parts) {
     std::vector<Index> vertex = part.vertex;
     for (std::size_t i = 0; i < vertex.size(); ++i) {
       if (vertex[i] == kNone) vertex[i] = Index(points.size()), points.emplace_back();
       points[vertex[i]] = part.points[i];
     }
-    for (std::size_t f = 0; f < part.faces.size(); ++f) {
-      std::array<Index, 4> face = part.faces[f];
-      const std::size_t degree = face[3] == kNone ? 3 : 4;
-      for (std::size_t i = 0; i < degree; ++i) face[i] = vertex[face[i]];
-      for (std::size_t i = 0; i < 4; ++i)
-        open.push_back(part.boundary[4 * f + i] && !is_interface(face[i], face[(i + 1) % degree]));
+    for (std::size_t side : part.boundary) {
+      const auto& face = part.faces[side / 4];
+      const std::size_t i = side % 4, next = i == 3 || face[i + 1] == kNone ? 0 : i + 1;
+      const auto edge = edge_of(vertex[face[i]], vertex[face[next]]);
+      if (!std::binary_search(whole.interface_edges.begin(), whole.interface_edges.end(), edge))
+        open[4 * faces.size() + side] = true;
+    }
+    for (std::array<Index, 4> face : part.faces) {
+      for (Index& corner : face)
+        if (corner != kNone) corner = vertex[corner];
       faces.push_back(face);
     }
   }

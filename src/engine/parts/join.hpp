@@ -15,8 +15,8 @@ std::vector<Region> take_apart(const kernel::Mesh& mesh, const Division& divisio
 struct PartElements {
   std::vector<Vec2> points;
   std::vector<Index> vertex;                ///< of each point in the whole, or kNone for a new one
-  std::vector<std::array<Index, 4>> faces;  ///< the last corner of a triangle is kNone
-  std::vector<bool> boundary;               ///< side 4 * face + i is boundary of the part
+  std::vector<std::array<Index, 4>> faces;  ///< by their lowest point; the last corner of a triangle is kNone
+  std::vector<std::size_t> boundary;        ///< sides 4 * face + i on the boundary of the part
   /// `node`: as Region::node of the part.
   PartElements(const std::vector<Index>& node, const kernel::Mesh& mesh);
   PartElements() = default;
