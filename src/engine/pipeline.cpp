@@ -90,7 +90,7 @@ void Pipeline::remove_doublet(kernel::Mesh& mesh, Index v) const {
 }
 
 void Pipeline::clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface) {
-  constexpr int kRings = 4;
+  constexpr int kRings = 2;  // with 4 nothing is better
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   for (Index v : interface) remove_doublet(mesh, v);
   std::vector<Index> nodes = interface;

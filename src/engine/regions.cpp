@@ -61,23 +61,24 @@ class Sides {
 
 /// The number of the region of each triangle; regions are numbered as they come. `sizes` gets their triangles.
 std::vector<Index> number_regions(const Sides& sides, Index triangles, std::vector<std::size_t>& sizes) {
-  std::vector<Index> region(triangles, kNone), waiting;
-  for (Index first = 0; first < triangles; ++first) {
-    if (region[first] != kNone) continue;
-    const auto number = Index(sizes.size());
-    sizes.push_back(0);
-    region[first] = number;
-    waiting.push_back(first);
-    while (!waiting.empty()) {
-      const Index t = waiting.back();
-      waiting.pop_back();
-      ++sizes[number];
-      for (Index c = 3 * t; c < 3 * t + 3; ++c) {
-        if (sides.opposite(c) == kNone) continue;
-        const Index beyond = sides.opposite(c) / 3;
-        if (region[beyond] == kNone) region[beyond] = number, waiting.push_back(beyond);
-      }
+  std::vector<Index> region(triangles);  // at first a union-find, in which the lowest triangle of a set is the root
+  const auto root = [&](Index t) {
+    while (region[t] != t) t = region[t] = region[region[t]];
+    return t;
+  };
+  for (Index t = 0; t < triangles; ++t) {
+    region[t] = t;
+    for (Index c = 3 * t; c < 3 * t + 3; ++c) {
+      if (sides.opposite(c) >= c) continue;  // that triangle comes later, if there is one
+      const Index a = root(t), b = root(sides.opposite(c) / 3);
+      region[std::max(a, b)] = std::min(a, b);
     }
+  }
+  for (Index t = 0; t < triangles; ++t) {
+    const bool is_first = region[t] == t;
+    region[t] = is_first ? Index(sizes.size()) : region[region[t]];
+    if (is_first) sizes.push_back(0);
+    ++sizes[region[t]];
   }
   return region;
 }

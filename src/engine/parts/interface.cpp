@@ -11,7 +11,7 @@ namespace {
 
 using kernel::Mesh;
 
-constexpr int kSweeps = 12;
+constexpr int kSweeps = 8;
 constexpr int kRings = 2;  ///< around an interface that make room
 /// A move may not leave triangles with a smaller sine, unless they were worse before.
 constexpr double kFloor = 0.35;
