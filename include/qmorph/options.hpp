@@ -92,7 +92,8 @@ struct Options {
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
-  /// take no more triangles than this; the best result counts. 0: never.
+  /// take no more triangles than this, or six times where the region has a quad with a scaled Jacobian under 0.7 and no more
+  /// than twice as many triangles; the best result counts. 0: never.
   std::size_t retry_triangles = 2000;
   /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the end; not if
   /// it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0: never.

@@ -34,9 +34,14 @@ double shape(const kernel::Mesh& mesh, Index f) {
 struct Worth {
   double least = 1;  ///< smallest scaled Jacobian of a quad
   double mean = 0;   ///< of shapes
-  /// Once the worst quad is good enough for every solver, the others count.
-  double sum() const { return std::min(least, kGoodEnough) + 2 * mean; }
-  static constexpr double kGoodEnough = 0.4;
+  /// Once the worst quad is good enough for every solver, it counts little, and the others count.
+  double sum() const {
+    constexpr double kLittle = 0.1;
+    return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
+           2 * mean;
+  }
+  bool is_poor() const { return least < kFine; }
+  static constexpr double kGoodEnough = 0.4, kFine = 0.7;
 };
 
 Worth worth_of(const kernel::Mesh& mesh) {
@@ -111,16 +116,19 @@ class RegionConverter {
     constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
     const std::size_t size = count_faces(start_, 3);   // fans may have been refined
     std::size_t triangles = size;
-    if (!is_small_) return best;
+    // A poor quad is worth some tries in a region that is not so small, too.
+    constexpr std::size_t kTries = 6;
+    if (size > 2 * options_.retry_triangles) return best;
     Worth worth = worth_of(best.mesh);
-    if (worth.least < kHopeless) return best;
+    if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
+    const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
     // Usual are 20 to 1000 edits a triangle. Where a boundary is all spikes it may be ten times as many, and no try is better.
     constexpr std::size_t kEditsPerTriangle = 500;
     std::size_t edits = best.mesh.edits();
     for (const Options& options : variants_of(options_)) {
       triangles += size;
-      if (triangles > options_.retry_triangles || worth.sum() > kGood) break;
-      if (edits > kEditsPerTriangle * options_.retry_triangles) break;
+      if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
+      if (edits > kEditsPerTriangle * most) break;
       Attempt other = attempt(options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       edits += other.mesh.edits();
       const Worth others = worth_of(other.mesh);
