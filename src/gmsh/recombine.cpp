@@ -344,13 +344,12 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.triangles_out = report.quads_out = 0;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const QuadMesh& result = converted.results[p];
-    const Eigen::Vector3d normal = patch_normal(converted.surface.parts[p].patch);
-    for (QualityAccumulator* figures : {&quality, &total_})
-      figures->add(result.points, result.triangles, result.quads, normal);
+    quality.add(result.points, result.triangles, result.quads, patch_normal(converted.surface.parts[p].patch));
     report.triangles_out += result.triangles.size();
     report.quads_out += result.quads.size();
     report.stats.add(result.stats);
   }
+  total_.add(quality);
   report.outcome = SurfaceOutcome::kConverted;
   report.warnings = converted.surface.warnings;
   report.quality = quality.result();
@@ -379,10 +378,8 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
     return;
   }
   QualityAccumulator quality;
-  for (const SurfacePart& part : surface.parts) {
-    for (QualityAccumulator* figures : {&quality, &total_})
-      figures->add(part.patch.points, part.patch.triangles, part.patch.quads);
-  }
+  for (const SurfacePart& part : surface.parts) quality.add(part.patch.points, part.patch.triangles, part.patch.quads);
+  total_.add(quality);
   report.quality = quality.result();
 }
 
