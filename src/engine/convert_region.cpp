@@ -32,19 +32,23 @@ double shape(const kernel::Mesh& mesh, Index f) {
 }
 
 struct Worth {
-  double least = 1;  ///< smallest scaled Jacobian of a quad
-  double mean = 0;   ///< of shapes
-  /// Once the worst quad is good enough for every solver, it counts little, and the others count.
+  double least = 1;   ///< smallest scaled Jacobian of a quad
+  double mean = 0;    ///< of shapes
+  double growth = 0;  ///< quads over those that take the place of equilateral triangles with sides as long
+  /// Once the worst quad is good enough for every solver, it counts little, and the others count. Good shapes are no
+  /// art with many quads that are smaller than asked for.
   double sum() const {
-    constexpr double kLittle = 0.1;
+    constexpr double kLittle = 0.1, kMostGrowth = 1.25;
     return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
-           2 * mean;
+           2 * mean - std::max(0.0, growth - kMostGrowth);
   }
   bool is_poor() const { return least < kFine; }
   static constexpr double kGoodEnough = 0.4, kFine = 0.7;
 };
 
-Worth worth_of(const kernel::Mesh& mesh) {
+/// `triangles`: how many the region had.
+Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles) {
+  constexpr double kTrianglesPerQuad = 2.31;  // of the same sides: 4 / sqrt(3)
   Worth worth;
   std::size_t faces = 0;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
@@ -53,6 +57,7 @@ Worth worth_of(const kernel::Mesh& mesh) {
     worth.mean += shape(mesh, f), ++faces;
   }
   if (faces > 0) worth.mean /= double(faces);
+  worth.growth = kTrianglesPerQuad * double(faces) / double(triangles);
   return worth;
 }
 
@@ -110,6 +115,8 @@ class RegionConverter {
     grade_fans(start_);
   }
 
+  Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
+
   Attempt best_of_variants(Attempt best) {
     // Under the lower bound it is the boundary that is poor, and no try changes that.
     constexpr double kGood = 2.05, kHopeless = 0.1;
@@ -119,7 +126,7 @@ class RegionConverter {
     // A poor quad is worth some tries in a region that is not so small, too.
     constexpr std::size_t kTries = 6;
     if (size > 2 * options_.retry_triangles) return best;
-    Worth worth = worth_of(best.mesh);
+    Worth worth = judge(best.mesh);
     if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
     const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
     // Usual are 20 to 1000 edits a triangle. Where a boundary is all spikes it may be ten times as many, and no try is better.
@@ -131,7 +138,7 @@ class RegionConverter {
       if (edits > kEditsPerTriangle * most) break;
       Attempt other = attempt(options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       edits += other.mesh.edits();
-      const Worth others = worth_of(other.mesh);
+      const Worth others = judge(other.mesh);
       if (!other.fault.empty() || others.sum() <= worth.sum()) continue;
       best = std::move(other);
       worth = others;
@@ -172,7 +179,7 @@ class RegionConverter {
   }
 
   /// Raises the corners that are not good enough, or as many as asked for if the others do not lose more by it.
-  static void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+  void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) const {
     if (smoothing.method != SmoothingMethod::shape_energy) return;
     const kernel::Mesh start = mesh;
     for (double good : {Worth::kGoodEnough, smoothing.good_quality}) {
@@ -180,7 +187,7 @@ class RegionConverter {
       options.good_quality = std::min(good, smoothing.good_quality);
       kernel::Mesh raised = start;
       smoothing::raise_worst_corners(raised, options);
-      if (worth_of(raised).sum() > worth_of(mesh).sum()) mesh = std::move(raised);
+      if (judge(raised).sum() > judge(mesh).sum()) mesh = std::move(raised);
     }
   }
 
@@ -217,8 +224,9 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
 kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionStats& stats,
                             Snapshots* snapshots) {
   Attempt best = RegionConverter(region, plane, options, stats).run();
+  const std::size_t size = region.triangles.size();
   if (auto other = convert_without_ear(region, plane, options, stats))
-    if (worth_of(other->mesh).sum() > worth_of(best.mesh).sum()) best = std::move(*other);
+    if (worth_of(other->mesh, size).sum() > worth_of(best.mesh, size).sum()) best = std::move(*other);
   stats = std::move(best.stats);
   if (snapshots) *snapshots = std::move(best.snapshots);
   return std::move(best.mesh);
