@@ -5,8 +5,14 @@
 namespace qmorph::cleanup {
 
 ElementSize::ElementSize(const kernel::Mesh& mesh) : mesh_(mesh), size_(mesh.vertex_slots(), 0) {
+  std::vector<Index> edges(mesh.vertex_slots(), 0);
+  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {  // each edge once: going round the nodes would see it twice
+    if (!mesh.is_live_half_edge(h)) continue;
+    const double length = mesh.length(h);
+    for (Index v : {mesh.origin(h), mesh.target(h)}) size_[v] += length, ++edges[v];
+  }
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
-    if (mesh.is_live_vertex(v)) size_[v] = mesh.mean_edge(v);
+    if (edges[v] > 0) size_[v] /= edges[v];
 }
 
 double ElementSize::quads_wanted(const std::vector<Index>& quads) const {
@@ -28,9 +34,12 @@ bool ElementSize::is_uniform(double factor) const {
   std::vector<double> sizes;
   for (Index v = 0; v < mesh_.vertex_slots(); ++v)
     if (mesh_.is_live_vertex(v)) sizes.push_back(size_[v]);
-  std::sort(sizes.begin(), sizes.end());
-  const std::size_t few = sizes.size() / 20;
-  return !sizes.empty() && sizes[sizes.size() - 1 - few] <= factor * sizes[few];
+  if (sizes.empty()) return false;
+  const auto few = std::ptrdiff_t(sizes.size() / 20);
+  const auto small = sizes.begin() + few, large = sizes.end() - 1 - few;
+  std::nth_element(sizes.begin(), small, sizes.end());
+  std::nth_element(small, large, sizes.end());
+  return *large <= factor * *small;
 }
 
 double ElementSize::mean(const std::vector<Index>& nodes) const {
