@@ -80,7 +80,7 @@ struct SmoothingOptions {
   SmoothingMethod method = SmoothingMethod::shape_energy;
   ThesisSmoothing thesis;
   int iterations = 4;            ///< passes over the nodes that are still active
-  double move_tolerance = 1e-3;  ///< a move shorter than this times the local edge length ends a node's activity
+  double move_tolerance = 0.01;  ///< a move shorter than this times the local edge length ends a node's activity
   int untangling_sweeps = 40;    ///< passes of the regularised energy over a patch with invalid elements
   double good_quality = 0.75;    ///< corners with a smaller sine are raised in the end, at the cost of better ones
   double target_quality = 0.3;   ///< elements with a smaller scaled Jacobian are optimised one node at a time

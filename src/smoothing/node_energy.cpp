@@ -33,39 +33,30 @@ constexpr double kMostMu = 0.5 / kStraightSine;
 /// One number for each of two elements, so that the processor works on both at once.
 using Lanes = Eigen::Array2d;
 
-/// A corner of two elements: mu^2 and, half as large as they are, its derivatives with respect to the node. With
-/// mu = n / (2 J), n = |a|^2 + |b|^2 and J = a x b linear in the node: grad mu = g = (dn / 2 - mu dJ) / J,
-/// Hess mu = (n2 / 2 - g dJ^T - dJ g^T) / J.
-struct CornerTerms {
-  Lanes value, x, y, xx, yy, xy;
-  std::array<bool, 2> finite;
-
-  /// The corner with edges (ax, ay) and (bx, by); (dx, dy) is half the gradient of n, (jx, jy) the gradient of J, `half_n2` half
-  /// the diagonal of the second derivative of n.
-  [[gnu::always_inline]] CornerTerms(const Lanes& ax, const Lanes& ay, const Lanes& bx, const Lanes& by,
-                                     const Lanes& dx, const Lanes& dy, double half_n2, const Lanes& jx,
-                                     const Lanes& jy) {
-    const Lanes j = ax * by - ay * bx, n = ax * ax + ay * ay + bx * bx + by * by;
-    const Lanes most = 2 * kMostMu * j;
-    finite = {n[0] < most[0], n[1] < most[1]};
-    const Lanes inverse = 1 / j, mu = 0.5 * n * inverse, k = mu * inverse;
-    const Lanes gx = inverse * (dx - mu * jx), gy = inverse * (dy - mu * jy);
-    value = mu * mu;
-    x = mu * gx, y = mu * gy;
-    xx = gx * gx + k * (half_n2 - 2 * gx * jx);
-    yy = gy * gy + k * (half_n2 - 2 * gy * jy);
-    xy = gx * gy - k * (gx * jy + gy * jx);
-  }
-};
-
-/// The sum over corners, always in the same order.
+/// Half of what the corners of two elements add: to the energy and its derivatives with respect to the node.
+///
+/// With mu = n / (2 J), n = |a|^2 + |b|^2 of the corner's edges and J = a x b linear in the node, half the gradient of mu^2 is
+/// k (d - mu dJ), half its Hessian e e^T - f f^T + k m I, where d is half the gradient of n, m half the diagonal of its second
+/// derivative, k = mu / J, f = k dJ and e = d / J - 2 f.
 struct Sum {
-  Lanes value_x{0, 0}, y_xy{0, 0}, xx_yy{0, 0};
+  Lanes value{0, 0}, x{0, 0}, y{0, 0}, xx{0, 0}, yy{0, 0}, xy{0, 0};
+  Lanes margin{1, 1};  ///< positive if no corner may be straight
 
-  void add(const CornerTerms& terms, std::size_t lane) {
-    value_x += Lanes{terms.value[lane], terms.x[lane]};
-    y_xy += Lanes{terms.y[lane], terms.xy[lane]};
-    xx_yy += Lanes{terms.xx[lane], terms.yy[lane]};
+  /// (dx, dy) is d, (jx, jy) is dJ.
+  [[gnu::always_inline]] void add(const Lanes& j, const Lanes& n, const Lanes& dx, const Lanes& dy, double m,
+                                  const Lanes& jx, const Lanes& jy) {
+    margin = margin.min(2 * kMostMu * j - n);
+    const Lanes inverse = 1 / j, mu = 0.5 * n * inverse, k = mu * inverse, km = m * k;
+    const Lanes fx = k * jx, fy = k * jy, ex = inverse * dx - 2 * fx, ey = inverse * dy - 2 * fy;
+    value += mu * mu;
+    x += k * dx - mu * fx, y += k * dy - mu * fy;
+    xx += ex * ex - fx * fx + km, yy += ey * ey - fy * fy + km, xy += ex * ey - fx * fy;
+  }
+  /// Adds what the first element has in `other`.
+  void add_first(const Sum& other) {
+    value[0] += other.value[0], x[0] += other.x[0], y[0] += other.y[0];
+    xx[0] += other.xx[0], yy[0] += other.yy[0], xy[0] += other.xy[0];
+    margin = margin.min(other.margin[0]);
   }
 };
 
@@ -141,35 +132,46 @@ struct Star::Two {
 void Star::look_around(const kernel::Mesh& mesh, Index v) {
   const Index end = mesh.out(v);
   Index h = mesh.face(end) == kNone ? mesh.rotate_ccw(end) : end;  // from here on there are no gaps
-  Vec2 q = mesh.point(mesh.target(h));
+  Index node = mesh.target(h);
+  Vec2 q = mesh.point(node);
   count_ = 0;
   do {
     if (elements_.size() < count_ + 3) elements_.resize(2 * count_ + 16);
-    const Index to_v = mesh.prev(h);
-    const Vec2 r = mesh.point(mesh.origin(to_v));
-    elements_[count_++] = {q, mesh.point(mesh.target(mesh.next(h))) - q, mesh.point(mesh.origin(mesh.prev(to_v))) - r};
-    q = r;
+    const Index to_v = mesh.prev(h), next_node = mesh.origin(to_v), opposite = mesh.origin(mesh.prev(to_v));
+    const Vec2 r = mesh.point(next_node);
+    if (opposite != node) {
+      const Vec2& o = mesh.point(opposite);
+      elements_[count_++] = {q, o - q, o - r, node, opposite};
+    } else {  // a triangle
+      elements_[count_++] = {q, r - q, q - r, node, opposite};
+    }
+    node = next_node, q = r;
     h = kernel::Mesh::twin(to_v);
   } while (h != end);
   elements_[count_].q = q;
 }
 
 Energy Star::energy_with_derivatives(const Vec2& p) const {
-  Sum sum;
-  Energy energy;
-  for (std::size_t i = 0; i < count_; i += 2) {
+  const auto add_two = [&](Sum & sum, std::size_t i) __attribute__((always_inline)) {
     const Two e(p, &elements_[i]);
-    const CornerTerms at_v(e.qx, e.qy, e.rx, e.ry, e.qx + e.rx, e.qy + e.ry, 2, e.ry - e.qy, e.qx - e.rx);
-    const CornerTerms at_q(e.sx, e.sy, e.qx, e.qy, e.qx, e.qy, 1, -e.sy, e.sx);
-    const CornerTerms at_r(e.rx, e.ry, e.tx, e.ty, e.rx, e.ry, 1, e.ty, -e.tx);
-    for (std::size_t lane = 0; lane < std::min<std::size_t>(2, count_ - i); ++lane) {
-      if (!at_v.finite[lane] || !at_q.finite[lane] || !at_r.finite[lane]) return energy.finite = false, energy;
-      sum.add(at_v, lane), sum.add(at_q, lane), sum.add(at_r, lane);
-    }
+    const Lanes qq = e.qx * e.qx + e.qy * e.qy, rr = e.rx * e.rx + e.ry * e.ry;
+    const Lanes ss = e.sx * e.sx + e.sy * e.sy, tt = e.tx * e.tx + e.ty * e.ty;
+    sum.add(e.qx * e.ry - e.qy * e.rx, qq + rr, e.qx + e.rx, e.qy + e.ry, 2, e.ry - e.qy, e.qx - e.rx);
+    sum.add(e.sx * e.qy - e.sy * e.qx, ss + qq, e.qx, e.qy, 1, -e.sy, e.sx);
+    sum.add(e.rx * e.ty - e.ry * e.tx, rr + tt, e.rx, e.ry, 1, e.ty, -e.tx);
+  };
+  Sum sum;
+  for (std::size_t i = 0; i + 1 < count_; i += 2) add_two(sum, i);
+  if (count_ % 2 != 0) {
+    Sum last;  // its second lane is of no element
+    add_two(last, count_ - 1);
+    sum.add_first(last);
   }
-  energy.value = sum.value_x[0];
-  energy.gradient = {2 * sum.value_x[1], 2 * sum.y_xy[0]};
-  energy.xx = 2 * sum.xx_yy[0], energy.yy = 2 * sum.xx_yy[1], energy.xy = 2 * sum.y_xy[1];
+  Energy energy;
+  energy.finite = sum.margin.minCoeff() > 0;
+  energy.value = sum.value.sum();
+  energy.gradient = {2 * sum.x.sum(), 2 * sum.y.sum()};
+  energy.xx = 2 * sum.xx.sum(), energy.yy = 2 * sum.yy.sum(), energy.xy = 2 * sum.xy.sum();
   return energy;
 }
 

@@ -14,6 +14,7 @@ struct Energy {
   double value = 0;
   Vec2 gradient = Vec2::Zero();
   double xx = 0, xy = 0, yy = 0;  ///< second derivatives
+  bool is_convex() const { return xx > 0 && xx * yy - xy * xy > 0; }
 };
 
 /// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a
@@ -31,12 +32,19 @@ class Star {
   Energy energy_with_derivatives(const Vec2& p) const;
   /// The same, value only.
   Energy energy(const Vec2& p) const;
+  /// Calls visit(u) for the nodes of the elements around, some more than once. Precondition: the node is inside.
+  template <class Visit>
+  void for_each_neighbour(const Visit& visit) const {
+    for (std::size_t i = 0; i < count_; ++i) visit(elements_[i].node), visit(elements_[i].opposite);
+  }
 
  private:
   struct Element {
-    Vec2 q;  ///< r is the q of the next
-    Vec2 s;  ///< side that follows q
-    Vec2 t;  ///< side that ends at r, backwards
+    Vec2 q;          ///< r is the q of the next
+    Vec2 s;          ///< side that follows q
+    Vec2 t;          ///< side that ends at r, backwards
+    Index node;      ///< at q
+    Index opposite;  ///< at the end of s; the same as `node` in a triangle
   };
   struct Two;
   std::vector<Element> elements_;  ///< kept to avoid allocations; with room for the q after the last

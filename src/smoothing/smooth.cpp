@@ -34,11 +34,12 @@ bool is_hub(const kernel::Mesh& mesh, Index v) {
 
 /// Newton's direction where the energy is convex, else downhill by a fraction of the edge length.
 Vec2 direction(const Energy& energy, double edge) {
-  const double determinant = energy.xx * energy.yy - energy.xy * energy.xy;
   const Vec2& g = energy.gradient;
-  if (energy.xx > 0 && determinant > 0)
+  if (energy.is_convex()) {
+    const double determinant = energy.xx * energy.yy - energy.xy * energy.xy;
     return {-(energy.yy * g.x() - energy.xy * g.y()) / determinant,
             -(energy.xx * g.y() - energy.xy * g.x()) / determinant};
+  }
   constexpr double kDownhill = 0.1;
   const double length = g.norm();
   return length > 0 ? Vec2(-g * (kDownhill * edge / length)) : Vec2::Zero();
@@ -89,6 +90,17 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   constexpr double kOverRelaxation = 1.3;
   constexpr int kHalvings = 4;
   double share = kOverRelaxation;
+  if (energy.is_convex()) {
+    // The energy is nearly self-concordant [Nesterov94]: where Newton's decrement is small, it falls along the whole step, and
+    // nothing turns over. No step was seen to fail under five times this bound.
+    constexpr double kSureDecrement = 0.1, kNegligible = 1e-12;
+    const double decrement = -energy.gradient.dot(step);
+    if (decrement < kNegligible * energy.value) return 0;
+    if (decrement < kSureDecrement) {
+      mesh.set_point(v, start + share * step);
+      return share * step.norm() / edge;
+    }
+  }
   for (int i = 0; i < kHalvings; ++i, share /= 2) {
     const Vec2 p = start + share * step;
     const Energy there = star.energy(p);
@@ -173,7 +185,8 @@ class Passes {
       const double moved = relax_node(mesh_, v, star);
       if (moved <= options_.move_tolerance) continue;
       any = true;
-      wake_around(v);
+      wake(v);
+      star.for_each_neighbour([&](Index u) { wake(u); });
     }
     return any;
   }
@@ -186,10 +199,11 @@ class Passes {
     }
   }
 
+  void wake(Index v) {
+    if (block_[v] != kNone) active_[v] = 1;  // a node that never moves has neighbours in several blocks
+  }
+
   void wake_around(Index v) {
-    const auto wake = [&](Index u) {
-      if (block_[u] != kNone) active_[u] = 1;  // a node that never moves has neighbours in several blocks
-    };
     wake(v);
     Index h = mesh_.out(v);
     do {
