@@ -114,9 +114,7 @@ double bad_sine(const Mesh& mesh, const std::vector<FaceSine>& below_good, doubl
 std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
   std::vector<FaceSine> faces;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f)) continue;
-    const double sine = mesh.smallest_sine(f);
-    if (sine < good) faces.push_back({f, sine});
+    if (mesh.is_live_face(f) && !mesh.is_above(f, good)) faces.push_back({f, mesh.smallest_sine(f)});
   }
   const double bad = bad_sine(mesh, faces, good);
   std::vector<Index> nodes;

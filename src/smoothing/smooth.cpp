@@ -129,7 +129,7 @@ class Passes {
       const bool any_between = relax(between_);
       if (!any_between && std::count(moved.begin(), moved.end(), 1) == 0) break;
     }
-    std::fill(active_.begin(), active_.end(), 1);
+    wake_at_poor_faces();
     for (int pass = 0; pass < kRepairPasses; ++pass) {
       parallel::for_each_index(blocks_.size(), [&](std::size_t b) { raise_poor(blocks_[b]); });
       raise_poor(between_);
@@ -196,6 +196,20 @@ class Passes {
       if (!active_[v]) continue;
       active_[v] = 0;
       if (!mesh_.is_star_above(v, options_.target_quality) && raise_smallest_sine(mesh_, v)) wake_around(v);
+    }
+  }
+
+  /// Activates the nodes of poor faces alone: each face is looked at once, not from all its nodes.
+  void wake_at_poor_faces() {
+    std::fill(active_.begin(), active_.end(), 0);
+    for (Index f = 0; f < mesh_.face_slots(); ++f) {
+      if (!mesh_.is_live_face(f) || mesh_.is_above(f, options_.target_quality)) continue;
+      const Index start = mesh_.half_edge(f);
+      Index h = start;
+      do {
+        wake(mesh_.origin(h));
+        h = mesh_.next(h);
+      } while (h != start);
     }
   }
 
