@@ -46,18 +46,24 @@ class Repair {
  private:
   bool is_bad(Index f) const {
     if (!mesh_.is_live_face(f) || mesh_.degree(f) != 4) return false;
-    if (mesh_.smallest_sine(f) >= relaxing_.target_quality && !is_at_strained_corner(f)) return false;
-    const std::vector<Index> nodes = topology::nodes_of(mesh_, f);
-    return std::none_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh_.valence(v) > kMostValence; });
+    if (mesh_.is_above(f, relaxing_.target_quality) && !is_at_strained_corner(f)) return false;
+    return !has_corner(f, [&](Index v) { return mesh_.valence(v) > kMostValence; });
   }
 
   /// Too few quads share the angle of a corner of the boundary, so that no smoothing can help them.
   bool is_at_strained_corner(Index f) const {
-    const std::vector<Index> nodes = topology::nodes_of(mesh_, f);
-    return std::any_of(nodes.begin(), nodes.end(), [&](Index v) {
+    return has_corner(f, [&](Index v) {
       return mesh_.is_boundary(v) && score_.excess(v) < 0 &&
              score_.inside_angle(v) > kStrained * double(mesh_.valence(v) - 1);
     });
+  }
+
+  template <class Test>
+  bool has_corner(Index f, const Test& test) const {
+    Index h = mesh_.half_edge(f);
+    for (Index i = 0; i < mesh_.degree(f); ++i, h = mesh_.next(h))
+      if (test(mesh_.origin(h))) return true;
+    return false;
   }
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
