@@ -67,14 +67,18 @@ Front::Key Front::key_of(unsigned level, unsigned priority, double length) {
 void Front::push(Index h, bool forced) {
   if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
   const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state(h).corners()), mesh_.length(h));
-  if (std::exchange(queued_[h], key) != key) queue_.push(Entry(key) << 32 | h);
+  if (std::exchange(queued_[h], key) != key) queue_[key].push_back(h);
 }
 
 Index Front::pop() {
   while (!queue_.empty()) {
-    const Key key = Key(queue_.top() >> 32);
-    const auto h = Index(queue_.top());
-    queue_.pop();
+    auto& [key, waiting] = *queue_.begin();
+    if (waiting.empty()) {
+      queue_.erase(queue_.begin());
+      continue;
+    }
+    const Index h = waiting.front();
+    waiting.pop_front();
     if (queued_[h] != key) continue;
     queued_[h] = 0;
     if (!mesh_.is_live_half_edge(h) || !contains(h)) continue;

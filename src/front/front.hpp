@@ -6,8 +6,8 @@
 /// the colours of loops and a queue.
 
 #include <cstdint>
-#include <functional>
-#include <queue>
+#include <deque>
+#include <map>
 #include <vector>
 
 #include "front/logged_column.hpp"
@@ -79,8 +79,6 @@ class Front {
   /// are equal here: neighbours come one after another then, which is good for rows and for caches. Never 0.
   using Key = std::uint32_t;
   static Key key_of(unsigned level, unsigned priority, double length);
-  /// The key, then the half-edge: the least is next.
-  using Entry = std::uint64_t;
 
   const Mesh& mesh_;
   FrontOptions options_;
@@ -88,7 +86,7 @@ class Front {
   LoggedColumn<unsigned> levels_;
   /// By half-edge: the key of the entry that counts, 0 for none; other entries are passed over.
   std::vector<Key> queued_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  std::map<Key, std::deque<Index>> queue_;  ///< half-edges by key, of equal keys the oldest first
   bool popped_forced_ = false;
 };
 
