@@ -24,18 +24,6 @@ bool is_forced(std::uint32_t key) { return (key >> kPriorityShift & 3) == kForce
 Front::Front(const Mesh& mesh, const FrontOptions& options)
     : mesh_(mesh), options_(options), corner_cosine_(std::cos(options.corner_angle)) {}
 
-Index Front::next(Index h) const {
-  Index e = mesh_.next(h);
-  while (mesh_.is_triangle(mesh_.face(Mesh::twin(e)))) e = mesh_.rotate_cw(e);
-  return e;
-}
-
-Index Front::prev(Index h) const {
-  Index e = mesh_.prev(h);
-  while (mesh_.is_triangle(mesh_.face(Mesh::twin(e)))) e = mesh_.prev(Mesh::twin(e));
-  return e;
-}
-
 double Front::angle_between(Index incoming, Index outgoing) const {
   const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
   const double angle = ccw_angle(ahead, back);

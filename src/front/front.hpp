@@ -47,8 +47,16 @@ class Front {
     } while (h != start);
   }
   /// The front edge that follows (precedes) h through the triangles ahead. O(valence).
-  Index next(Index h) const;
-  Index prev(Index h) const;
+  Index next(Index h) const {
+    Index e = mesh_.next(h);
+    while (mesh_.is_triangle(mesh_.face(Mesh::twin(e)))) e = mesh_.rotate_cw(e);
+    return e;
+  }
+  Index prev(Index h) const {
+    Index e = mesh_.prev(h);
+    while (mesh_.is_triangle(mesh_.face(Mesh::twin(e)))) e = mesh_.prev(Mesh::twin(e));
+    return e;
+  }
   /// Angle through the triangles ahead between h and the front edge before (after) it, in (0, 2 pi].
   double angle_left(Index h) const { return angle_between(prev(h), h); }
   double angle_right(Index h) const { return angle_between(h, next(h)); }

@@ -195,8 +195,6 @@ double Mesh::mean_edge(Index v) const {
 
 // --- edits ----------------------------------------------------------------------------------------------
 
-void Mesh::set_point(Index v, Vec2 p) { edit_vertex(v).point = p; }
-
 void Mesh::set_fixed(Index v) { edit_vertex(v).fixed = true; }
 
 void Mesh::link(Index h, Index after) {

@@ -92,9 +92,9 @@ class Mesh {
   double mean_edge(Index v) const;
 
   // --- edits ----------------------------------------------------------------------------------------
-  // Points are taken by value: a new vertex may move the array that a reference points into.
-  void set_point(Index v, Vec2 p);
+  void set_point(Index v, const Vec2& p) { edit_vertex(v).point = p; }
   void set_fixed(Index v);
+  // A new vertex' point is taken by value: it may move the array that a reference points into.
   /// New vertex at p on the edge of h: h ends there. Both faces gain a side. Returns the vertex.
   Index split_edge(Index h, Vec2 p);
   /// New edge from origin(g) to origin(h), two half-edges of one face; it lies left of the face's part
