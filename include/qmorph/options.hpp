@@ -66,9 +66,9 @@ struct ThesisSmoothing {
   double coincidence = 0.01;
 };
 
-/// How nodes are moved. Measured on the planar meshes of cases/gmsh, shape_energy and thesis: scaled Jacobian min 0.35 and
-/// 0.24, mean 0.969 and 0.966, mean of the 1st percentiles 0.79 and 0.76, quads under 0.3 none and 88, irregular
-/// nodes 2.43 and 2.57 %, seconds of all stages 1.6 and 2.3. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly better.
+/// How nodes are moved. Measured on the planar meshes of cases/gmsh, shape_energy and thesis: scaled Jacobian min 0.34 and
+/// 0.24, mean 0.969 and 0.966, mean of the 1st percentiles 0.78 and 0.76, quads under 0.3 none and 88, irregular
+/// nodes 2.40 and 2.49 %, seconds of all stages 1.1 and 1.5. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly better.
 enum class SmoothingMethod {
   shape_energy,  ///< Newton steps on a shape energy, then on the worst corners
   thesis,        ///< constrained Laplacian, then steepest descent on the worst element. Thesis 2.2.6, 3.7
@@ -92,8 +92,8 @@ struct Options {
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
-  /// take no more triangles than this, or six times where the region has a quad with a scaled Jacobian under 0.7 and no more
-  /// than twice as many triangles; the best result counts. 0: never.
+  /// take no more triangles than this, or than six times its own where a region of up to twice as many has a quad with a scaled
+  /// Jacobian under 0.7; the best result counts. 0: never.
   std::size_t retry_triangles = 2000;
   /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the end; not if
   /// it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0: never.

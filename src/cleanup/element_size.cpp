@@ -4,16 +4,7 @@
 
 namespace qmorph::cleanup {
 
-ElementSize::ElementSize(const kernel::Mesh& mesh) : mesh_(mesh), size_(mesh.vertex_slots(), 0) {
-  std::vector<Index> edges(mesh.vertex_slots(), 0);
-  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {  // each edge once: going round the nodes would see it twice
-    if (!mesh.is_live_half_edge(h)) continue;
-    const double length = mesh.length(h);
-    for (Index v : {mesh.origin(h), mesh.target(h)}) size_[v] += length, ++edges[v];
-  }
-  for (Index v = 0; v < mesh.vertex_slots(); ++v)
-    if (edges[v] > 0) size_[v] /= edges[v];
-}
+ElementSize::ElementSize(const kernel::Mesh& mesh) : mesh_(mesh), size_(mesh.mean_edges()) {}
 
 double ElementSize::quads_wanted(const std::vector<Index>& quads) const {
   double wanted = 0;

@@ -60,10 +60,9 @@ class Repair {
 
   template <class Test>
   bool has_corner(Index f, const Test& test) const {
-    Index h = mesh_.half_edge(f);
-    for (Index i = 0; i < mesh_.degree(f); ++i, h = mesh_.next(h))
-      if (test(mesh_.origin(h))) return true;
-    return false;
+    bool found = false;
+    mesh_.for_nodes_of(f, [&](Index v) { found = found || test(v); });
+    return found;
   }
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }

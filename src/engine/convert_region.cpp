@@ -38,9 +38,9 @@ struct Worth {
   /// Once the worst quad is good enough for every solver, it counts little, and the others count. Good shapes are no
   /// art with many quads that are smaller than asked for.
   double sum() const {
-    constexpr double kLittle = 0.1, kMostGrowth = 1.25;
+    constexpr double kLittle = 0.1, kFairGrowth = 1.25;
     return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
-           2 * mean - std::max(0.0, growth - kMostGrowth);
+           2 * mean - std::max(0.0, growth - kFairGrowth);
   }
   bool is_poor() const { return least < kFine; }
   static constexpr double kGoodEnough = 0.4, kFine = 0.7;

@@ -210,12 +210,7 @@ void smooth_around(Step& step, Index face) {
   const auto note = [&](Index v) {
     if (step.marked.insert(v)) nodes.push_back(v);
   };
-  const Index start = mesh.half_edge(face);
-  Index h = start;
-  do {
-    note(mesh.origin(h));
-    h = mesh.next(h);
-  } while (h != start);
+  mesh.for_nodes_of(face, note);
   const std::size_t corners = nodes.size();
   for (std::size_t i = 0; i < corners; ++i) {
     const Index v = nodes[i];

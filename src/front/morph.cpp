@@ -63,17 +63,10 @@ class Morph {
     front_.push(h, forced);
   }
 
-  /// Mean length of the edges at every node: each edge is measured once.
   void note_sizes() {
-    std::vector<double> sums(mesh_.vertex_slots());
-    std::vector<Index> edges(mesh_.vertex_slots());
-    for (Index h = 0; h < mesh_.half_edge_slots(); h += 2) {
-      if (!mesh_.is_live_half_edge(h)) continue;
-      const double length = mesh_.length(h);
-      for (Index v : {mesh_.origin(h), mesh_.target(h)}) sums[v] += length, ++edges[v];
-    }
+    const std::vector<double> sizes = mesh_.mean_edges();
     for (Index v = 0; v < mesh_.vertex_slots(); ++v)
-      if (mesh_.is_live_vertex(v)) step_.size.set(v, sums[v] / edges[v]);
+      if (mesh_.is_live_vertex(v)) step_.size.set(v, sizes[v]);
   }
 
   void start() {

@@ -7,7 +7,7 @@
 namespace qmorph::front {
 namespace {
 
-/// A loop with more triangles inside than this is no remainder: it is meshed by the front.
+/// A loop with more edges, or more triangles inside, than this is no remainder: it is meshed by the front.
 constexpr std::size_t kMostEdges = 6;
 constexpr std::size_t kMostTriangles4 = 6;
 constexpr std::size_t kMostTriangles6 = 8;

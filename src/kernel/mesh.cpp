@@ -193,6 +193,19 @@ double Mesh::mean_edge(Index v) const {
   return sum / edges;
 }
 
+std::vector<double> Mesh::mean_edges() const {
+  std::vector<double> means(vertex_slots(), 0);
+  std::vector<Index> edges(vertex_slots(), 0);
+  for (Index h = 0; h < half_edge_slots(); h += 2) {
+    if (!is_live_half_edge(h)) continue;
+    const double edge = length(h);
+    for (Index v : {origin(h), target(h)}) means[v] += edge, ++edges[v];
+  }
+  for (Index v = 0; v < vertex_slots(); ++v)
+    if (edges[v] > 0) means[v] /= edges[v];
+  return means;
+}
+
 // --- edits ----------------------------------------------------------------------------------------------
 
 void Mesh::set_fixed(Index v) { edit_vertex(v).fixed = true; }

@@ -64,6 +64,16 @@ class Mesh {
   Index rotate_cw(Index h) const { return next(twin(h)); }
   Vec2 vector(Index h) const { return point(target(h)) - point(origin(h)); }
   double length(Index h) const { return vector(h).norm(); }
+  /// Calls visit(v) for the corners of a face, in their order.
+  template <class Visit>
+  void for_nodes_of(Index f, const Visit& visit) const {
+    const Index start = half_edge(f);
+    Index h = start;
+    do {
+      visit(origin(h));
+      h = next(h);
+    } while (h != start);
+  }
   Index valence(Index v) const;
   /// The half-edge from a to b, or kNone. O(valence).
   Index find(Index a, Index b) const;
@@ -90,6 +100,8 @@ class Mesh {
   double smallest_sine_around(Index v) const;
   /// Mean length of the edges at v.
   double mean_edge(Index v) const;
+  /// The same of all vertices, by vertex; 0 for dead ones. Each edge is measured once.
+  std::vector<double> mean_edges() const;
 
   // --- edits ----------------------------------------------------------------------------------------
   void set_point(Index v, const Vec2& p) { edit_vertex(v).point = p; }

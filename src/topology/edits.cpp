@@ -32,12 +32,7 @@ void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
 
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
   std::vector<Index> nodes;
-  const Index start = mesh.half_edge(f);
-  Index h = start;
-  do {
-    nodes.push_back(mesh.origin(h));
-    h = mesh.next(h);
-  } while (h != start);
+  mesh.for_nodes_of(f, [&](Index v) { nodes.push_back(v); });
   return nodes;
 }
 
