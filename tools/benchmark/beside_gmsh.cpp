@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "gmsh_tasks.hpp"
 
@@ -56,8 +57,10 @@ bool same_bytes(const std::string& a, const std::string& b) {
 
 Comparison compare(double size, Kind kind, double limit, const Folder& folder, bool try_blossom) {
   const std::string in = folder.file("triangles.msh"), quads = folder.file("quads.msh");
+  const std::string meshed = folder.file("meshed.msh");
   const std::string one = folder.file("one.msh"), two = folder.file("two.msh");
-  for (const std::string& file : {in, quads, one, two}) std::filesystem::remove(file);  // those of the size before
+  for (const std::string& file : {in, meshed, quads, one, two})
+    std::filesystem::remove(file);  // those of the size before
   Comparison result;
   result.kind = kind;
   const Ran made = run_apart(
@@ -70,8 +73,10 @@ Comparison compare(double size, Kind kind, double limit, const Folder& folder, b
       limit);
   if (made.end != End::finished) throw std::runtime_error("the triangles could not be made");
   result.triangles = made.figures.triangles;
-  if (kind == Kind::even && size <= kLargestToMesh)
-    result.meshing = run_apart([&] { return gmsh_meshes(size); }, limit);
+  if (kind == Kind::even && size <= kLargestToMesh) {
+    result.meshing = run_apart([&] { return gmsh_meshes(size, meshed); }, limit);
+    result.converted = fastest([&] { return qmorph_recombines(meshed, quads, 1); }, limit);
+  }
   result.simple = fastest([&] { return gmsh_recombines(in, quads, 0); }, limit);
   if (try_blossom) result.blossom = fastest([&] { return gmsh_recombines(in, quads, 1); }, limit);
   result.one_thread = fastest([&] { return qmorph_recombines(in, one, 1); }, limit);
@@ -102,22 +107,29 @@ triangle of the size before):
 
 void print_rivals(const std::vector<Comparison>& comparisons, double limit) {
   fmt::print(kRivals, limit);
-  std::string meshing;
   for (const Comparison& c : comparisons) {
     fmt::print("| {} | {} |", name_of(c.kind), c.triangles);
     for (const auto which :
          {&Comparison::simple, &Comparison::blossom, &Comparison::one_thread, &Comparison::two_threads})
       fmt::print(" {} |", cell(c, which, limit));
     fmt::print("\n");
-    if (c.meshing.end == End::not_tried) continue;
-    const bool finished = c.meshing.end == End::finished;
-    meshing +=
-        fmt::format("{}{} for {}", meshing.empty() ? "" : ", ",
-                    finished ? fmt::format("{:.2f} s", c.meshing.figures.cpu) : cell(c, &Comparison::meshing, limit),
-                    finished ? c.meshing.figures.triangles : c.triangles);
   }
-  if (!meshing.empty())
-    fmt::print("\nTo make triangles in such a square with holes took Gmsh (algorithm 6) {}.\n", meshing);
+}
+
+/// Seconds of the processor for the conversion alone: front to rest.
+double conversion_seconds(const Figures& f) { return f.cpu / f.work * f.convert; }
+
+void print_meshing(const std::vector<Comparison>& comparisons) {
+  const char* heading =
+      "\nTriangles that Gmsh itself makes (algorithm 6) in such a square with holes, and their conversion by one "
+      "thread:\n\n"
+      "| triangles | Gmsh makes them | qmorph converts them | share |\n|---|---|---|---|\n";
+  for (const Comparison& c : comparisons) {
+    if (c.meshing.end != End::finished || c.converted.end != End::finished) continue;
+    const double made = c.meshing.figures.cpu, converted = conversion_seconds(c.converted.figures);
+    fmt::print("{}| {} | {:.2f} s | {:.3f} s | {:.3f} |\n", std::exchange(heading, ""), c.meshing.figures.triangles,
+               made, converted, converted / made);
+  }
 }
 
 constexpr const char* kStages = R"(
@@ -140,7 +152,7 @@ void print_stages(const std::vector<Comparison>& comparisons) {
     for (const double time : {f.read, f.front, f.cleanup, f.smoothing, rest, f.check, f.replace})
       row += fmt::format(" {:.2f} |", own * time);
     row += fmt::format(" {:.2f} | {:.0f} % | {:.2f} |", f.write, 100 * (f.open + f.write) / (f.open + f.cpu + f.write),
-                       own * f.convert);
+                       conversion_seconds(f));
     if (c.two_threads.end == End::finished)
       row += fmt::format(" {:.2f} → {:.2f}: {:.2f} | {} |", f.convert, c.two_threads.figures.convert,
                          f.convert / c.two_threads.figures.convert, c.same_bytes ? "yes" : "**no**");
@@ -198,6 +210,7 @@ std::vector<Comparison> compare_with_gmsh(const std::vector<double>& sizes, cons
     }
   }
   print_rivals(comparisons, limit);
+  print_meshing(comparisons);
   print_stages(comparisons);
   print_disturbance(comparisons);
   return comparisons;

@@ -13,7 +13,8 @@ namespace benchmark {
 struct Comparison {
   Kind kind = Kind::even;
   std::size_t triangles = 0;
-  Ran meshing;  ///< Gmsh makes about so many triangles; of Kind::even alone
+  Ran meshing;    ///< Gmsh makes about so many triangles; of Kind::even alone
+  Ran converted;  ///< these by qmorph, one thread
   Ran simple, blossom, one_thread, two_threads;
   bool same_bytes = false;  ///< of the files that one thread and two made
 };

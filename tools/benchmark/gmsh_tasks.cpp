@@ -193,7 +193,7 @@ Figures write_triangles(const Triangulation& mesh, const std::string& path) {
   return figures;
 }
 
-Figures gmsh_meshes(double wanted) {
+Figures gmsh_meshes(double wanted, const std::string& path) {
   start_gmsh();
   namespace geo = gmsh::model::geo;
   const auto polygon = [](const std::vector<Eigen::Vector2d>& corners) {
@@ -226,6 +226,7 @@ Figures gmsh_meshes(double wanted) {
   figures.work = watch.lap();
   figures.cpu = cpu_seconds() - cpu;
   figures.triangles = count_triangles();
+  gmsh::write(path);
   return figures;
 }
 
