@@ -460,7 +460,7 @@ Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside
   for (Index r : ring) corners.push_back(origin(r));
   std::sort(sides.begin(), sides.end());
   std::sort(corners.begin(), corners.end());
-  const auto on_ring = [&](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
+  const auto on_ring = [&sides = sides](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
   for (Index f : inside) {
     const Index start = half_edge(f);
     Index h = start;

@@ -30,48 +30,79 @@ bool for_each_element(const kernel::Mesh& mesh, Index v, const Corners& corners)
 /// mu is at least 1 / sine: a corner whose mu is larger than this may be straight.
 constexpr double kMostMu = 0.5 / kStraightSine;
 
-/// One number for each of two elements, so that the processor works on both at once.
-using Lanes = Eigen::Array2d;
-
-/// Half of what the corners of two elements add: to the energy and its derivatives with respect to the node.
+/// What the corners of four elements add to the energy, and half of what they add to its derivatives with respect to the node.
 ///
-/// With mu = n / (2 J), n = |a|^2 + |b|^2 of the corner's edges and J = a x b linear in the node, half the gradient of mu^2 is
-/// k (d - mu dJ), half its Hessian e e^T - f f^T + k m I, where d is half the gradient of n, m half the diagonal of its second
-/// derivative, k = mu / J, f = k dJ and e = d / J - 2 f.
-struct Sum {
-  Lanes value{0, 0}, x{0, 0}, y{0, 0}, xx{0, 0}, yy{0, 0}, xy{0, 0};
-  Lanes margin{1, 1};  ///< positive if no corner may be straight
+/// With mu = n / (2 J), n = |a|^2 + |b|^2 of the corner's edges and J = a x b linear in the node, the gradient of mu is
+/// g = d / J - f, and half the Hessian of mu^2 is g g^T - f g^T - g f^T + k m I, where d is half the gradient of n, m half the
+/// diagonal of its second derivative, k = mu / J and f = k dJ.
+struct Derivatives {
+  FourLanes value{}, x{}, y{}, xx{}, yy{}, xy{};
+  FourLanes least{1, 1, 1, 1};  ///< of the areas J
 
   /// (dx, dy) is d, (jx, jy) is dJ.
-  [[gnu::always_inline]] void add(const Lanes& j, const Lanes& n, const Lanes& dx, const Lanes& dy, double m,
-                                  const Lanes& jx, const Lanes& jy) {
-    margin = margin.min(2 * kMostMu * j - n);
-    const Lanes inverse = 1 / j, mu = 0.5 * n * inverse, k = mu * inverse, km = m * k;
-    const Lanes fx = k * jx, fy = k * jy, ex = inverse * dx - 2 * fx, ey = inverse * dy - 2 * fy;
+  [[gnu::always_inline]] void add(const FourLanes& j, const FourLanes& n, const FourLanes& dx, const FourLanes& dy,
+                                  double m, const FourLanes& jx, const FourLanes& jy) {
+    least = j < least ? j : least;
+    const FourLanes inverse = 1 / j, mu = 0.5 * n * inverse, k = mu * inverse, km = m * k;
+    const FourLanes fx = k * jx, fy = k * jy, gx = inverse * dx - fx, gy = inverse * dy - fy;
     value += mu * mu;
-    x += k * dx - mu * fx, y += k * dy - mu * fy;
-    xx += ex * ex - fx * fx + km, yy += ey * ey - fy * fy + km, xy += ex * ey - fx * fy;
-  }
-  /// Adds what the first element has in `other`.
-  void add_first(const Sum& other) {
-    value[0] += other.value[0], x[0] += other.x[0], y[0] += other.y[0];
-    xx[0] += other.xx[0], yy[0] += other.yy[0], xy[0] += other.xy[0];
-    margin = margin.min(other.margin[0]);
+    x += mu * gx, y += mu * gy;
+    xx += gx * (gx - 2 * fx) + km, yy += gy * (gy - 2 * fy) + km, xy += gx * (gy - fy) - fx * gy;
   }
 };
 
-/// mu of a corner of two elements, from its area and the squares of its edges; not finite where it may be straight.
-struct CornerMu {
-  Lanes squared;
-  std::array<bool, 2> finite;
+/// What they add to the energy, alone.
+struct Value {
+  FourLanes value{}, least{1, 1, 1, 1};
 
-  CornerMu(const Lanes& j, const Lanes& n) {
-    const Lanes most = 2 * kMostMu * j;
-    finite = {n[0] < most[0], n[1] < most[1]};
-    const Lanes mu = n / (2 * j);
-    squared = mu * mu;
+  [[gnu::always_inline]] void add(const FourLanes& j, const FourLanes& n, const FourLanes&, const FourLanes&, double,
+                                  const FourLanes&, const FourLanes&) {
+    least = j < least ? j : least;
+    const FourLanes mu = 0.5 * n / j;
+    value += mu * mu;
   }
 };
+
+/// Adds the three corners of four elements to Derivatives or Value, with the node at p.
+template <class Sum>
+[[gnu::always_inline]] inline void add_corners(Sum& sum, const FourElements& e, const Vec2& p) {
+  const FourLanes qx = p.x() - e.qx, qy = p.y() - e.qy, rx = p.x() - e.rx, ry = p.y() - e.ry;
+  const FourLanes qq = qx * qx + qy * qy, rr = rx * rx + ry * ry;
+  const FourLanes ss = e.sx * e.sx + e.sy * e.sy, tt = e.tx * e.tx + e.ty * e.ty;
+  sum.add(qx * ry - qy * rx, qq + rr, qx + rx, qy + ry, 2, ry - qy, qx - rx);
+  sum.add(e.sx * qy - e.sy * qx, ss + qq, qx, qy, 1, -e.sy, e.sx);
+  sum.add(rx * e.ty - ry * e.tx, rr + tt, rx, ry, 1, e.ty, -e.tx);
+}
+
+/// Sum of the first `count` lanes; the others are of no element.
+[[gnu::always_inline]] inline double sum_of(const FourLanes& lanes, std::size_t count) {
+  const FourLanes used = FourLanes{0, 1, 2, 3} < double(count) ? lanes : FourLanes{};
+  return (used[0] + used[1]) + (used[2] + used[3]);
+}
+
+/// The first `count` lanes are.
+[[gnu::always_inline]] inline bool are_positive(const FourLanes& lanes, std::size_t count) {
+  const FourLanes used = FourLanes{0, 1, 2, 3} < double(count) ? lanes : FourLanes{1, 1, 1, 1};
+  return used[0] > 0 && used[1] > 0 && used[2] > 0 && used[3] > 0;
+}
+
+QMORPH_WIDE void add_derivatives(Energy& energy, const FourElements& elements, std::size_t count, const Vec2& p) {
+  Derivatives half;
+  add_corners(half, elements, p);
+  energy.finite = energy.finite && are_positive(half.least, count);
+  energy.value += sum_of(half.value, count);
+  energy.gradient += 2 * Vec2(sum_of(half.x, count), sum_of(half.y, count));
+  energy.xx += 2 * sum_of(half.xx, count);
+  energy.yy += 2 * sum_of(half.yy, count);
+  energy.xy += 2 * sum_of(half.xy, count);
+}
+
+QMORPH_WIDE void add_value(Energy& energy, const FourElements& elements, std::size_t count, const Vec2& p) {
+  Value sum;
+  add_corners(sum, elements, p);
+  energy.finite = energy.finite && are_positive(sum.least, count);
+  energy.value += sum_of(sum.value, count);
+}
 
 /// How a corner's area J enters the regularised energy: as h(J), with the first two derivatives. [Escobar03]
 struct Regularised {
@@ -114,21 +145,6 @@ Vec2 clockwise(const Vec2& v) { return {v.y(), -v.x()}; }
 
 }  // namespace
 
-/// Edges of two elements: (qx, qy) and (rx, ry) from the node's neighbours in the element to the node, (sx, sy) and (tx, ty) from
-/// these neighbours on.
-struct Star::Two {
-  Lanes qx, qy, rx, ry, sx, sy, tx, ty;
-
-  /// Elements `first` and the next of the star with the node at p.
-  [[gnu::always_inline]] Two(const Vec2& p, const Element* first) {
-    const Element &a = first[0], &b = first[1], &c = first[2];
-    qx = p.x() - Lanes{a.q.x(), b.q.x()}, qy = p.y() - Lanes{a.q.y(), b.q.y()};
-    rx = p.x() - Lanes{b.q.x(), c.q.x()}, ry = p.y() - Lanes{b.q.y(), c.q.y()};
-    sx = {a.s.x(), b.s.x()}, sy = {a.s.y(), b.s.y()};
-    tx = {a.t.x(), b.t.x()}, ty = {a.t.y(), b.t.y()};
-  }
-};
-
 void Star::look_around(const kernel::Mesh& mesh, Index v) {
   const Index end = mesh.out(v);
   Index h = mesh.face(end) == kNone ? mesh.rotate_ccw(end) : end;  // from here on there are no gaps
@@ -136,61 +152,32 @@ void Star::look_around(const kernel::Mesh& mesh, Index v) {
   Vec2 q = mesh.point(node);
   count_ = 0;
   do {
-    if (elements_.size() < count_ + 3) elements_.resize(2 * count_ + 16);
     const Index to_v = mesh.prev(h), next_node = mesh.origin(to_v), opposite = mesh.origin(mesh.prev(to_v));
     const Vec2 r = mesh.point(next_node);
-    if (opposite != node) {
-      const Vec2& o = mesh.point(opposite);
-      elements_[count_++] = {q, o - q, o - r, node, opposite};
-    } else {  // a triangle
-      elements_[count_++] = {q, r - q, q - r, node, opposite};
-    }
+    const bool is_quad = opposite != node;
+    const Vec2 o = mesh.point(opposite), s = (is_quad ? o : r) - q, t = o - r;
+    if (count_ == 4 * fours_.size()) fours_.emplace_back();
+    FourElements& four = fours_[count_ / 4];
+    const std::size_t lane = count_++ % 4;
+    four.qx[lane] = q.x(), four.qy[lane] = q.y(), four.rx[lane] = r.x(), four.ry[lane] = r.y();
+    four.sx[lane] = s.x(), four.sy[lane] = s.y(), four.tx[lane] = t.x(), four.ty[lane] = t.y();
+    four.node[lane] = node, four.opposite[lane] = opposite;
     node = next_node, q = r;
     h = kernel::Mesh::twin(to_v);
   } while (h != end);
-  elements_[count_].q = q;
 }
 
-Energy Star::energy_with_derivatives(const Vec2& p) const {
-  const auto add_two = [&](Sum & sum, std::size_t i) __attribute__((always_inline)) {
-    const Two e(p, &elements_[i]);
-    const Lanes qq = e.qx * e.qx + e.qy * e.qy, rr = e.rx * e.rx + e.ry * e.ry;
-    const Lanes ss = e.sx * e.sx + e.sy * e.sy, tt = e.tx * e.tx + e.ty * e.ty;
-    sum.add(e.qx * e.ry - e.qy * e.rx, qq + rr, e.qx + e.rx, e.qy + e.ry, 2, e.ry - e.qy, e.qx - e.rx);
-    sum.add(e.sx * e.qy - e.sy * e.qx, ss + qq, e.qx, e.qy, 1, -e.sy, e.sx);
-    sum.add(e.rx * e.ty - e.ry * e.tx, rr + tt, e.rx, e.ry, 1, e.ty, -e.tx);
-  };
-  Sum sum;
-  for (std::size_t i = 0; i + 1 < count_; i += 2) add_two(sum, i);
-  if (count_ % 2 != 0) {
-    Sum last;  // its second lane is of no element
-    add_two(last, count_ - 1);
-    sum.add_first(last);
-  }
+template <class Add>
+Energy Star::sum(const Vec2& p, const Add& add) const {
   Energy energy;
-  energy.finite = sum.margin.minCoeff() > 0;
-  energy.value = sum.value.sum();
-  energy.gradient = {2 * sum.x.sum(), 2 * sum.y.sum()};
-  energy.xx = 2 * sum.xx.sum(), energy.yy = 2 * sum.yy.sum(), energy.xy = 2 * sum.xy.sum();
+  for (std::size_t i = 0; i < count_; i += 4) add(energy, fours_[i / 4], count_ - i, p);
+  energy.finite = energy.finite && energy.value < kMostMu * kMostMu;  // and so is each square
   return energy;
 }
 
-Energy Star::energy(const Vec2& p) const {
-  Energy energy;
-  for (std::size_t i = 0; i < count_; i += 2) {
-    const Two e(p, &elements_[i]);
-    const Lanes qq = e.qx * e.qx + e.qy * e.qy, rr = e.rx * e.rx + e.ry * e.ry;
-    const CornerMu at_v(e.qx * e.ry - e.qy * e.rx, qq + rr);
-    const CornerMu at_q(e.sx * e.qy - e.sy * e.qx, e.sx * e.sx + e.sy * e.sy + qq);
-    const CornerMu at_r(e.rx * e.ty - e.ry * e.tx, rr + (e.tx * e.tx + e.ty * e.ty));
-    const Lanes value = at_v.squared + at_q.squared + at_r.squared;
-    for (std::size_t lane = 0; lane < std::min<std::size_t>(2, count_ - i); ++lane) {
-      if (!at_v.finite[lane] || !at_q.finite[lane] || !at_r.finite[lane]) return energy.finite = false, energy;
-      energy.value += value[lane];
-    }
-  }
-  return energy;
-}
+Energy Star::energy_with_derivatives(const Vec2& p) const { return sum(p, add_derivatives); }
+
+Energy Star::energy(const Vec2& p) const { return sum(p, add_value); }
 
 Energy energy_around(const kernel::Mesh& mesh, Index v) {
   Star star;

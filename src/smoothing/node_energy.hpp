@@ -5,6 +5,10 @@
 /// inverse of the mean ratio of its two edges, growing without bound where the corner closes or turns over
 /// [Knupp01]. The sum of mu^2 punishes the worst corners most. It is smooth, so one Newton step each pass is enough.
 
+#include <array>
+#include <vector>
+
+#include "geometry/lanes.hpp"
 #include "kernel/mesh.hpp"
 
 namespace qmorph::smoothing {
@@ -23,6 +27,15 @@ struct Energy {
 Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta);
 double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta);
 
+/// Four of the elements around a node v, one in each lane. An element runs v, q, ..., r.
+struct FourElements {
+  FourLanes qx, qy, rx, ry;
+  FourLanes sx, sy;               ///< side that follows q
+  FourLanes tx, ty;               ///< side that ends at r, backwards
+  std::array<Index, 4> node;      ///< at q
+  std::array<Index, 4> opposite;  ///< at the end of s; the same as `node` in a triangle
+};
+
 /// The elements around a node, looked at once, so that the energy at several places costs no walk through the mesh. Of an
 /// element that runs v, q, ..., r the corners at v, q and r depend on v.
 class Star {
@@ -35,20 +48,15 @@ class Star {
   /// Calls visit(u) for the nodes of the elements around, some more than once. Precondition: the node is inside.
   template <class Visit>
   void for_each_neighbour(const Visit& visit) const {
-    for (std::size_t i = 0; i < count_; ++i) visit(elements_[i].node), visit(elements_[i].opposite);
+    for (std::size_t i = 0; i < count_; ++i) visit(fours_[i / 4].node[i % 4]), visit(fours_[i / 4].opposite[i % 4]);
   }
 
  private:
-  struct Element {
-    Vec2 q;          ///< r is the q of the next
-    Vec2 s;          ///< side that follows q
-    Vec2 t;          ///< side that ends at r, backwards
-    Index node;      ///< at q
-    Index opposite;  ///< at the end of s; the same as `node` in a triangle
-  };
-  struct Two;
-  std::vector<Element> elements_;  ///< kept to avoid allocations; with room for the q after the last
-  std::size_t count_ = 0;
+  template <class Add>
+  Energy sum(const Vec2& p, const Add& add) const;
+
+  std::vector<FourElements> fours_;  ///< kept to avoid allocations
+  std::size_t count_ = 0;            ///< elements
 };
 
 /// As Star's, for one place.
