@@ -68,10 +68,11 @@ template <class Sum>
 [[gnu::always_inline]] inline void add_corners(Sum& sum, const FourElements& e, const Vec2& p) {
   const FourLanes qx = p.x() - e.qx, qy = p.y() - e.qy, rx = p.x() - e.rx, ry = p.y() - e.ry;
   const FourLanes qq = qx * qx + qy * qy, rr = rx * rx + ry * ry;
-  const FourLanes ss = e.sx * e.sx + e.sy * e.sy, tt = e.tx * e.tx + e.ty * e.ty;
+  const FourLanes sx = e.after_qx - e.qx, sy = e.after_qy - e.qy, tx = e.before_rx - e.rx, ty = e.before_ry - e.ry;
+  const FourLanes ss = sx * sx + sy * sy, tt = tx * tx + ty * ty;
   sum.add(qx * ry - qy * rx, qq + rr, qx + rx, qy + ry, 2, ry - qy, qx - rx);
-  sum.add(e.sx * qy - e.sy * qx, ss + qq, qx, qy, 1, -e.sy, e.sx);
-  sum.add(rx * e.ty - ry * e.tx, rr + tt, rx, ry, 1, e.ty, -e.tx);
+  sum.add(sx * qy - sy * qx, ss + qq, qx, qy, 1, -sy, sx);
+  sum.add(rx * ty - ry * tx, rr + tt, rx, ry, 1, ty, -tx);
 }
 
 /// Sum of the first `count` lanes; the others are of no element.
@@ -149,20 +150,21 @@ void Star::look_around(const kernel::Mesh& mesh, Index v) {
   const Index end = mesh.out(v);
   Index h = mesh.face(end) == kNone ? mesh.rotate_ccw(end) : end;  // from here on there are no gaps
   Index node = mesh.target(h);
-  Vec2 q = mesh.point(node);
   count_ = 0;
   do {
     const Index to_v = mesh.prev(h), next_node = mesh.origin(to_v), opposite = mesh.origin(mesh.prev(to_v));
-    const Vec2 r = mesh.point(next_node);
-    const bool is_quad = opposite != node;
-    const Vec2 o = mesh.point(opposite), s = (is_quad ? o : r) - q, t = o - r;
-    if (count_ == 4 * fours_.size()) fours_.emplace_back();
+    const std::size_t lane = count_ % 4;
+    if (lane == 0 && count_ == 4 * fours_.size()) fours_.emplace_back();
     FourElements& four = fours_[count_ / 4];
-    const std::size_t lane = count_++ % 4;
-    four.qx[lane] = q.x(), four.qy[lane] = q.y(), four.rx[lane] = r.x(), four.ry[lane] = r.y();
-    four.sx[lane] = s.x(), four.sy[lane] = s.y(), four.tx[lane] = t.x(), four.ty[lane] = t.y();
+    ++count_;
+    const Vec2 &q = mesh.point(node), &r = mesh.point(next_node), &before_r = mesh.point(opposite);
+    const Vec2& after_q = opposite == node ? r : before_r;  // in a triangle
+    four.qx[lane] = q.x(), four.qy[lane] = q.y();
+    four.rx[lane] = r.x(), four.ry[lane] = r.y();
+    four.after_qx[lane] = after_q.x(), four.after_qy[lane] = after_q.y();
+    four.before_rx[lane] = before_r.x(), four.before_ry[lane] = before_r.y();
     four.node[lane] = node, four.opposite[lane] = opposite;
-    node = next_node, q = r;
+    node = next_node;
     h = kernel::Mesh::twin(to_v);
   } while (h != end);
 }

@@ -27,13 +27,12 @@ struct Energy {
 Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta);
 double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta);
 
-/// Four of the elements around a node v, one in each lane. An element runs v, q, ..., r.
+/// Four of the elements around a node v, one in each lane. An element runs v, q, after_q, r or, if it is a triangle, v, q, r: then
+/// after_q is r and before_r is q.
 struct FourElements {
-  FourLanes qx, qy, rx, ry;
-  FourLanes sx, sy;               ///< side that follows q
-  FourLanes tx, ty;               ///< side that ends at r, backwards
+  FourLanes qx, qy, rx, ry, after_qx, after_qy, before_rx, before_ry;
   std::array<Index, 4> node;      ///< at q
-  std::array<Index, 4> opposite;  ///< at the end of s; the same as `node` in a triangle
+  std::array<Index, 4> opposite;  ///< at before_r
 };
 
 /// The elements around a node, looked at once, so that the energy at several places costs no walk through the mesh. Of an
