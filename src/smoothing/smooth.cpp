@@ -9,6 +9,7 @@
 #include "smoothing/node_energy.hpp"
 #include "smoothing/thesis_smoothing.hpp"
 #include "smoothing/untangle.hpp"
+#include "topology/edits.hpp"
 
 namespace qmorph::smoothing {
 namespace {
@@ -259,7 +260,8 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     }
   }
   std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });
-  if (!std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); }))
+  const std::vector<Index> faces = topology::faces_around(mesh, around);
+  if (!std::all_of(faces.begin(), faces.end(), [&](Index f) { return mesh.is_valid_face(f); }))
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   Star star;
   for (int pass = 0; pass < options.iterations; ++pass) {
@@ -267,8 +269,9 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     for (Index v : around) moved = std::max(moved, relax_node(mesh, v, star));
     if (moved < options.move_tolerance) break;
   }
-  for (Index v : around)
-    if (!mesh.is_star_above(v, options.target_quality)) raise_smallest_sine(mesh, v);
+  if (!std::all_of(faces.begin(), faces.end(), [&](Index f) { return mesh.is_above(f, options.target_quality); }))
+    for (Index v : around)
+      if (!mesh.is_star_above(v, options.target_quality)) raise_smallest_sine(mesh, v);
   return std::none_of(around.begin(), around.end(), [&](Index v) { return is_on_neighbour(mesh, v); }) &&
          std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); });
 }
