@@ -16,9 +16,28 @@ constexpr std::size_t kLikelyCorners = 9;
 /// Four corners are looked for everywhere on an outline that is no longer than this.
 constexpr int kShortOutline = 100;
 
-/// What each place of an outline costs as a side and as a corner of a filling.
+constexpr int kForbidden = 1'000'000;
+
+/// Score of the new nodes: one is irregular unless there are four corners. All costs are whole numbers: their sums have no
+/// rounding, in whatever order.
+int cost_inside(int corners) { return corners == 4 ? 0 : 1; }
+
+/// What a place of an outline costs as a side, and as a corner over that.
+struct PlaceCost {
+  int side, corner;
+
+  PlaceCost(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity, std::size_t i) {
+    const Index v = mesh.origin(cavity.outline()[i]);
+    const int edges = cavity.outer_edges()[i], off_corner = edges - score.ideal(v), off_side = off_corner + 1;
+    const bool doublet = edges < 3 && mesh.is_free(v);
+    side = off_side * off_side;
+    corner = doublet ? kForbidden : off_corner * off_corner - side;
+  }
+};
+
+/// What all places cost, and how well their angles fit.
 struct Places {
-  double side_cost = 0, side_misfit = 0;           ///< of all places together
+  double side_cost = 0, side_misfit = 0;           ///< of all places together, as sides
   std::vector<double> corner_cost, corner_misfit;  ///< by place, over those of a side
 
   Places(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity) {
@@ -26,16 +45,13 @@ struct Places {
     const std::size_t n = outline.size();
     corner_cost.reserve(n), corner_misfit.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const Index v = mesh.origin(outline[i]);
-      const int corner = cavity.outer_edges()[i] - score.ideal(v), side = corner + 1;
+      const PlaceCost cost(mesh, score, cavity, i);
       double angle = ccw_angle(mesh.vector(outline[i]), -mesh.vector(outline[(i + n - 1) % n]));
       if (angle <= 0) angle += 2 * std::numbers::pi;
       const double off_side = angle / std::numbers::pi - 1, off_corner = angle / std::numbers::pi - 0.5;
-      side_cost += side * side;
+      side_cost += cost.side;
       side_misfit += off_side * off_side;
-      constexpr double kForbidden = 1e6;
-      const bool doublet = mesh.is_free(v) && cavity.outer_edges()[i] < 3;
-      corner_cost.push_back(doublet ? kForbidden : corner * corner - side * side);
+      corner_cost.push_back(cost.corner);
       corner_misfit.push_back(off_corner * off_corner - off_side * off_side);
     }
   }
@@ -87,8 +103,7 @@ class Chooser {
     std::exclusive_scan(cheapest_.begin(), cheapest_.end(), cheapest_.begin(), 0.0);
   }
 
-  /// Costs are whole numbers: their sums have no rounding, in whatever order.
-  double cost_of_sides(int corners) const { return places_.side_cost + (corners == 4 ? 0 : 1); }
+  double cost_of_sides(int corners) const { return places_.side_cost + cost_inside(corners); }
 
   /// Offers every choice of `left` more corners from likely_[from] on that does not cost too much; `cost` is that of the corners
   /// picked so far and the sides.
@@ -127,6 +142,27 @@ class Chooser {
 };
 
 }  // namespace
+
+bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity, double most_cost) {
+  const std::size_t n = cavity.outline().size(), half = n / 2;
+  int sides = 0;
+  std::vector<int> corners, pairs;
+  corners.reserve(n), pairs.reserve(half);
+  for (std::size_t i = 0; i < n; ++i) {
+    const PlaceCost cost(mesh, score, cavity, i);
+    sides += cost.side;
+    corners.push_back(cost.corner);
+  }
+  // Four corners are two pairs on opposite sides.
+  for (std::size_t i = 0; i < half; ++i) pairs.push_back(corners[i] + corners[i + half]);
+  const auto cheapest = [](std::vector<int>& costs, std::size_t count) {
+    if (costs.size() < count) return kForbidden;
+    std::partial_sort(costs.begin(), costs.begin() + std::ptrdiff_t(count), costs.end());
+    return std::accumulate(costs.begin(), costs.begin() + std::ptrdiff_t(count), 0);
+  };
+  return sides + cheapest(pairs, 2) <= most_cost || sides + cheapest(corners, 3) + cost_inside(3) <= most_cost ||
+         sides + cheapest(corners, 5) + cost_inside(5) <= most_cost;
+}
 
 std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
                                            double most_cost, double quads_wanted) {

@@ -84,12 +84,12 @@ class Replacing {
 
   template <class Accept>
   bool replace(const Accept& accept) {
-    std::vector<Index> outline;
-    for (Index h : cavity_.outline()) outline.push_back(mesh_.origin(h));
     std::vector<Index> near = cavity_.inner_nodes();
-    near.insert(near.end(), outline.begin(), outline.end());
+    for (Index h : cavity_.outline()) near.push_back(mesh_.origin(h));
     double cost = 0;
     for (Index v : near) cost += score_.cost(v);
+    if (!may_have_filling(mesh_, score_, cavity_, cost - 1)) return false;
+    std::vector<Index> outline(near.end() - std::ptrdiff_t(cavity_.outline().size()), near.end());
     const double size = size_.mean(near);
     int tries = 0;
     for (const FillingChoice& choice :

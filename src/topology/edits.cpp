@@ -38,6 +38,7 @@ std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
 
 std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   std::vector<Index> faces;
+  faces.reserve(5 * nodes.size());
   for (Index v : nodes) {
     if (!mesh.is_live_vertex(v)) continue;
     Index h = mesh.out(v);
