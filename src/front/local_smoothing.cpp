@@ -14,9 +14,11 @@ constexpr double kStrongTransition = 20;
 /// A move must leave the worst corner around above this sine, unless it was worse before.
 constexpr double kWorstSine = 0.05;
 constexpr int kHalvings = 3;
-/// A shorter move, relative to the edges here, does not bring the front into another order, nor does it ask the
-/// neighbours to follow.
+/// A shorter move, relative to the edges here, does not bring the front into another order.
 constexpr double kVisibleMove = 0.02;
+/// A shorter one does not ask the neighbours to follow. With 0.02 as well the front takes 7 % longer, and no figure is better; with
+/// 0.08 there are more irregular nodes.
+constexpr double kFollowedMove = 0.04;
 /// A row is as high as the front asks for by this share less, and as the edges of the input are here by this share: so
 /// it keeps to the input's grading. Chosen by us on graded meshes: 0, 0.5, 0.75 gave 8.2, 6.9, 6.0 %
 /// irregular nodes on one with embedded points, and sizes nearer to the input's.
@@ -182,7 +184,7 @@ bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal, const Surroundi
   return false;
 }
 
-/// True if the node moved visibly.
+/// True if the node moved so far that its neighbours have to follow.
 bool smooth_node(Step& step, Index v) {
   kernel::Mesh& mesh = step.mesh;
   if (!mesh.is_free(v)) return false;
@@ -196,9 +198,9 @@ bool smooth_node(Step& step, Index v) {
   else
     goal = isoparametric_position(s);
   if (!move_guarded(mesh, v, goal, s)) return false;
-  const bool is_visible = (mesh.point(v) - start).norm() > kVisibleMove * step.size[v];
-  if (is_visible && s.front_edges > 0) step.moved.push_back(v);
-  return is_visible;
+  const double move = (mesh.point(v) - start).norm(), size = step.size[v];
+  if (move > kVisibleMove * size && s.front_edges > 0) step.moved.push_back(v);
+  return move > kFollowedMove * size;
 }
 
 }  // namespace
