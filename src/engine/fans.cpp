@@ -152,8 +152,10 @@ class Ring {
 }  // namespace
 
 std::size_t grade_fans(Mesh& mesh) {
-  std::size_t rings = 0;
+  const std::vector<Index> valences = mesh.valences();
+  if (std::all_of(valences.begin(), valences.end(), [](Index valence) { return valence <= kTooMany; })) return 0;
   const Index count = mesh.vertex_slots();
+  std::size_t rings = 0;
   for (Index v = 0; v < count; ++v) {
     if (!mesh.is_live_vertex(v) || mesh.valence(v) <= kTooMany) continue;
     while (mesh.valence(v) > kEnough && Ring(mesh, v).add_inside()) ++rings;

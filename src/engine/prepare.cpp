@@ -70,7 +70,7 @@ std::string find_needles(const Mesh& mesh, const Plane& plane) {
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f)) continue;
     ++faces;
-    if (mesh.smallest_sine(f) > kStraightSine) continue;
+    if (mesh.is_above(f, kStraightSine)) continue;
     if (++thin == 1) first = f;
   }
   if (thin <= kFew || double(thin) <= kShare * double(faces)) return {};

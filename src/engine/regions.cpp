@@ -8,24 +8,54 @@
 namespace qmorph {
 namespace {
 
-/// Sides of triangles: side c runs from the node of corner c to that of the next corner. Corners of triangle k are 3 k, 3 k + 1, 3 k + 2.
+/// The triangles along a Z-curve, with nodes that are numbered as they come: then what lies close together does so in memory,
+/// however the mesher has numbered it. Side c runs from the node of corner c to that of the next corner. Corners of triangle k
+/// are 3 k, 3 k + 1, 3 k + 2.
 class Sides {
  public:
-  Sides(const Patch& patch, const std::vector<Index>& order)
-      : first_(patch.points.size(), kNone), following_(3 * order.size()), opposite_(3 * order.size(), kNone) {
-    node_.reserve(3 * order.size());
-    for (Index t : order) node_.insert(node_.end(), patch.triangles[t].begin(), patch.triangles[t].end());
+  Sides(const Patch& patch, const std::vector<Index>& order) : opposite_(3 * order.size(), kNone) {
+    take_nodes(patch, order);
+    first_.assign(row_.size(), kNone);
+    following_.resize(node_.size());
     for (Index c = 0; c < node_.size(); ++c) add(c, patch);
-    for (const auto& [a, b] : patch.constraints) cut(find(a, b));
+    for (const auto& [a, b] : patch.constraints) cut(number_[a], number_[b]);
   }
 
   static Index next(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
   static Index previous(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
+  Index nodes() const { return Index(row_.size()); }
   Index node(Index c) const { return node_[c]; }
+  /// Of Patch::points.
+  Index row(Index node) const { return row_[node]; }
   /// The same edge's side in the other triangle; kNone on the boundary and on a constraint.
   Index opposite(Index c) const { return opposite_[c]; }
 
+  /// Where several fans of triangles meet at a node, all but the first get one of their own.
+  void separate_fans() {
+    std::vector<bool> is_boundary(nodes(), false), is_taken = is_boundary, is_done(node_.size(), false);
+    for (Index c = 0; c < node_.size(); ++c)
+      if (opposite_[c] == kNone) is_boundary[node_[c]] = true;
+    for (Index c = 0; c < node_.size(); ++c) {
+      const Index node = node_[c];
+      if (is_done[c] || !is_boundary[node]) continue;
+      const Index own = is_taken[node] ? nodes() : node;
+      if (own != node) row_.push_back(row_[node]);
+      is_taken[node] = true;
+      for_fan(c, [&](Index e) { node_[e] = own, is_done[e] = true; });
+    }
+  }
+
  private:
+  void take_nodes(const Patch& patch, const std::vector<Index>& order) {
+    number_.assign(patch.points.size(), kNone);
+    node_.reserve(3 * order.size());
+    for (Index t : order)
+      for (Index v : patch.triangles[t]) {
+        if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v);
+        node_.push_back(number_[v]);
+      }
+  }
+
   /// The side between a and b, in either direction, that came first. O(valence): among the sides from one lower node, the sum of both
   /// nodes tells which it is.
   Index find(Index a, Index b) const {
@@ -42,18 +72,35 @@ class Sides {
       return;
     }
     if (node_[other] == a || opposite_[other] != kNone)
-      throw SurfaceError("two triangles lie on the same side of the edge from " + describe(patch.points[a]) + " to " +
-                         describe(patch.points[b]) + "; remove overlapping triangles or orient them alike");
+      throw SurfaceError("two triangles lie on the same side of the edge from " + describe(patch.points[row_[a]]) +
+                         " to " + describe(patch.points[row_[b]]) +
+                         "; remove overlapping triangles or orient them alike");
     opposite_[c] = other;
     opposite_[other] = c;
   }
 
-  void cut(Index c) {
+  void cut(Index a, Index b) {
+    if (a == kNone || b == kNone) return;
+    const Index c = find(a, b);
     if (c == kNone) return;
     if (opposite_[c] != kNone) opposite_[opposite_[c]] = kNone;
     opposite_[c] = kNone;
   }
 
+  /// Calls visit(corner) for corner c and all others of its fan.
+  template <class Visit>
+  void for_fan(Index c, const Visit& visit) const {
+    visit(c);
+    Index e = opposite_[c];
+    for (; e != kNone; e = opposite_[e]) {
+      e = next(e);
+      if (e == c) return;  // all round
+      visit(e);
+    }
+    for (e = c; (e = opposite_[previous(e)]) != kNone;) visit(e);
+  }
+
+  std::vector<Index> number_, row_;       ///< nodes of rows of Patch::points, and back
   std::vector<Index> node_;               ///< by corner
   std::vector<Index> first_, following_;  ///< sides in a chain from the lower node of each edge, one for each edge
   std::vector<Index> opposite_;           ///< by side
@@ -83,21 +130,7 @@ std::vector<Index> number_regions(const Sides& sides, Index triangles, std::vect
   return region;
 }
 
-/// Calls visit(corner) for corner c and all others of its fan.
-template <class Visit>
-void for_fan(const Sides& sides, Index c, const Visit& visit) {
-  visit(c);
-  Index e = sides.opposite(c);
-  for (; e != kNone; e = sides.opposite(e)) {
-    e = Sides::next(e);
-    if (e == c) return;  // all round
-    visit(e);
-  }
-  for (e = c; (e = sides.opposite(Sides::previous(e))) != kNone;) visit(e);
-}
-
-/// What lies close together on the surface shall do so in memory, however the mesher has numbered it: on a million triangles in
-/// random order that halves the time of a conversion.
+/// On a million triangles in random order that halves the time of a conversion.
 std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& plane_points) {
   std::vector<Vec2> middles;
   middles.reserve(patch.triangles.size());
@@ -110,7 +143,8 @@ std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& pl
 
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points) {
   const std::vector<Index> order = spatial_order(patch, plane_points);
-  const Sides sides(patch, order);
+  Sides sides(patch, order);
+  sides.separate_fans();
   std::vector<std::size_t> sizes;
   const std::vector<Index> region_of = number_regions(sides, Index(order.size()), sizes);
 
@@ -124,20 +158,21 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
     regions[r].row.reserve(sizes[r]);
     regions[r].open.reserve(3 * sizes[r]);
   }
-  std::vector<Index> vertex_of(3 * order.size(), kNone);
+  std::vector<Index> vertex_of(sides.nodes(), kNone);
   for (Index k = 0; k < order.size(); ++k) {
     Region& region = regions[region_of[k]];
     std::array<Index, 3> corners{};
     for (Index i = 0; i < 3; ++i) {
-      const Index c = 3 * k + i, node = sides.node(c);
-      if (vertex_of[c] == kNone) {
-        const auto vertex = Index(region.points.size());
-        for_fan(sides, c, [&](Index e) { vertex_of[e] = vertex; });
-        region.points.push_back(plane_points[node]);
-        region.node.push_back(node);
-        if (must_stay[node]) region.fixed.push_back(vertex);
+      const Index c = 3 * k + i;
+      Index& vertex = vertex_of[sides.node(c)];
+      if (vertex == kNone) {
+        const Index row = sides.row(sides.node(c));
+        vertex = Index(region.points.size());
+        region.points.push_back(plane_points[row]);
+        region.node.push_back(row);
+        if (must_stay[row]) region.fixed.push_back(vertex);
       }
-      corners[i] = vertex_of[c];
+      corners[i] = vertex;
       region.open.push_back(sides.opposite(c) == kNone);
       region.boundary_sides += region.open.back();
     }

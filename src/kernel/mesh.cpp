@@ -48,25 +48,27 @@ double smallest_sine_of(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2&
 
 Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 3>>& triangles,
            const std::vector<bool>& open) {
-  vertices_.resize(points.size());
-  for (Index v = 0; v < points.size(); ++v) vertices_[v].point = points[v];
-  build(triangles, open);
+  build(points, triangles, open);
 }
 
 Mesh::Mesh(const std::vector<Vec2>& points, const std::vector<std::array<Index, 4>>& faces,
            const std::vector<bool>& open) {
-  vertices_.resize(points.size());
-  for (Index v = 0; v < points.size(); ++v) vertices_[v].point = points[v];
-  build(faces, open);
+  build(points, faces, open);
 }
 
 template <std::size_t N>
-void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open) {
+void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<Index, N>>& faces,
+                 const std::vector<bool>& open) {
   const auto is_open = [&](std::size_t side) { return side < open.size() && open[side]; };
-  faces_.resize(faces.size());
-  half_edges_.reserve(faces.size() * N + faces.size() / 8 + 64);  // some room, so that edits do not move all at once
+  const auto with_room = [](std::size_t size) {
+    return size + size / 8 + 64;
+  };  // so that edits do not move all at once
+  vertices_.reserve(with_room(points.size()));
+  for (const Vec2& p : points) vertices_.push_back({.point = p});
+  faces_.reserve(with_room(faces.size()));
+  half_edges_.reserve(with_room(faces.size() * N));
 
-  // Edges in a chain from their lower vertex, to find the other half of one among a handful.
+  // Edges that wait for their other half, in a chain from their lower vertex: there are never many.
   std::vector<Index> first(vertices_.size(), kNone), following;  // following: by edge
   following.reserve(half_edges_.capacity() / 2);
   for (Index f = 0; f < faces.size(); ++f) {
@@ -75,17 +77,18 @@ void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vect
     for (Index i = 0; i < degree; ++i) {
       const Index a = faces[f][i], b = faces[f][(i + 1) % degree];
       const bool stays_open = is_open(N * f + i);
-      Index& start = first[std::min(a, b)];
-      Index e = stays_open ? kNone : start;
-      while (e != kNone && !(origin(e) == b && target(e) == a)) e = following[e / 2];
-      if (e != kNone) {
-        h[i] = twin(e);
+      Index* waiting = &first[std::min(a, b)];
+      while (!stays_open && *waiting != kNone && !(origin(*waiting) == b && target(*waiting) == a))
+        waiting = &following[*waiting / 2];
+      if (!stays_open && *waiting != kNone) {
+        h[i] = twin(*waiting);
+        *waiting = following[*waiting / 2];
       } else {
         h[i] = half_edge_slots();
         half_edges_.push_back({a, kNone, kNone, kNone});
         half_edges_.push_back({b, kNone, kNone, kNone});
-        following.push_back(start);
-        if (!stays_open) start = h[i];
+        if (!stays_open) *waiting = h[i];
+        following.push_back(kNone);
       }
       vertices_[a].out = h[i];
     }
@@ -94,7 +97,7 @@ void Mesh::build(const std::vector<std::array<Index, N>>& faces, const std::vect
       half_edges_[h[i]].next = h[(i + 1) % degree];
       half_edges_[h[i]].prev = h[(i + degree - 1) % degree];
     }
-    faces_[f] = {h[0], degree};
+    faces_.push_back({h[0], degree});
   }
   std::vector<Index> outside;
   for (Index h = 0; h < half_edges_.size(); ++h)
@@ -113,6 +116,13 @@ Index Mesh::valence(Index v) const {
     h = rotate_ccw(h);
   } while (h != out(v));
   return count;
+}
+
+std::vector<Index> Mesh::valences() const {
+  std::vector<Index> valences(vertex_slots(), 0);
+  for (Index h = 0; h < half_edge_slots(); ++h)
+    if (is_live_half_edge(h)) ++valences[origin(h)];
+  return valences;
 }
 
 Index Mesh::find(Index a, Index b) const {

@@ -75,6 +75,8 @@ class Mesh {
     } while (h != start);
   }
   Index valence(Index v) const;
+  /// Of all vertices, by vertex; 0 for dead ones.
+  std::vector<Index> valences() const;
   /// The half-edge from a to b, or kNone. O(valence).
   Index find(Index a, Index b) const;
 
@@ -161,7 +163,8 @@ class Mesh {
 
  private:
   template <std::size_t N>
-  void build(const std::vector<std::array<Index, N>>& faces, const std::vector<bool>& open);
+  void build(const std::vector<Vec2>& points, const std::vector<std::array<Index, N>>& faces,
+             const std::vector<bool>& open);
   bool is_star_above(Index v, double triangle_sine, double sine) const;
   void check_touched() const;
   HalfEdge& edit_half_edge(Index h) { return edit(edge_pool_, half_edges_, h); }

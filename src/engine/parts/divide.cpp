@@ -1,6 +1,7 @@
 #include "engine/parts/divide.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -19,9 +20,14 @@ constexpr double kTooLarge = 1.5;
 /// A piece of a part that is smaller than this times the size that parts are to have goes to a neighbour.
 constexpr double kCrumb = 0.1;
 
-Vec2 middle_of(const Mesh& mesh, Index f) {
+std::array<Vec2, 3> corners_of(const Mesh& mesh, Index f) {
   const Index h = mesh.half_edge(f);
-  return (mesh.point(mesh.origin(h)) + mesh.point(mesh.target(h)) + mesh.point(mesh.origin(mesh.prev(h)))) / 3;
+  return {mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.origin(mesh.prev(h)))};
+}
+
+Vec2 middle_of(const Mesh& mesh, Index f) {
+  const auto [a, b, c] = corners_of(mesh, f);
+  return (a + b + c) / 3;
 }
 
 /// A part that may still be cut.
@@ -96,12 +102,11 @@ class Dividing {
   std::vector<Index> interface_along(const Line& line, Index part, const std::vector<Index>& faces) {
     std::vector<Index> on_line;
     for (Index f : faces) {
-      const Vec2 middle = middle_of(mesh_, f);
-      other_[f] = line.distance(middle) >= 0;
-      const auto lies_beyond = [&](Index h) { return char(line.distance(mesh_.point(mesh_.origin(h))) >= 0); };
-      bool straddles = false;
-      for_each_side(f, [&](Index h) { straddles = straddles || lies_beyond(h) != other_[f]; });
-      if (straddles) on_line.push_back(f);
+      const auto [a, b, c] = corners_of(mesh_, f);
+      const auto lies_beyond = [&](const Vec2& p) { return line.distance(p) >= 0; };
+      const bool beyond = lies_beyond((a + b + c) / 3);
+      other_[f] = beyond;
+      if (lies_beyond(a) != beyond || lies_beyond(b) != beyond || lies_beyond(c) != beyond) on_line.push_back(f);
     }
     even_out(part, on_line);  // two faces on different sides: the line passes through one of them, or one has moved
     std::vector<Index> interface;
@@ -158,6 +163,7 @@ class Dividing {
     std::vector<std::vector<std::vector<Index>>> pieces_of(division_.parts);
     std::vector<char> seen(mesh_.face_slots(), 0);
     parallel::for_each_index(division_.parts, [&](std::size_t part) {
+      if (has_one_loop(parts_[part])) return pieces_of[part].push_back(std::move(parts_[part].faces));
       for (Index f : parts_[part].faces)
         if (!seen[f]) pieces_of[part].push_back(piece_around(f, seen));
     });
@@ -171,8 +177,22 @@ class Dividing {
       Index becomes = part;
       if (is_taken[part]) becomes = double(piece.size()) < kCrumb * triangles_ ? part_around(piece) : division_.parts++;
       if (becomes < is_taken.size()) is_taken[becomes] = 1;
+      if (becomes == part) continue;
       for (Index f : piece) division_.part[f] = becomes;
     }
+  }
+
+  /// The outline is one loop, so the part is one piece: each piece has a loop of its own, or more.
+  bool has_one_loop(const Part& part) const {
+    std::size_t sides = 0;
+    Index h = part.outline[0];
+    const Index own = division_.part[mesh_.face(h)];
+    do {
+      ++sides;
+      h = mesh_.next(h);
+      while (part_beyond(h) == own) h = mesh_.rotate_cw(h);
+    } while (h != part.outline[0]);
+    return sides == part.outline.size();
   }
 
   std::vector<Index> piece_around(Index first, std::vector<char>& seen) const {
