@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -21,13 +22,20 @@ void require_finite(const Patch& patch) {
                          "; repair the input");
 }
 
-Vector3d area_vector(const Patch& patch) {
-  Vector3d sum = Vector3d::Zero();
+/// Of the triangles: the box around them, and twice their area as a vector.
+struct Extent {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vector3d area = Vector3d::Zero();
+};
+
+Extent extent_of(const Patch& patch) {
+  Extent extent;
   for (const auto& t : patch.triangles) {
-    const Vector3d& a = patch.points[t[0]];
-    sum += (patch.points[t[1]] - a).cross(patch.points[t[2]] - a);
+    const Vector3d &a = patch.points[t[0]], &b = patch.points[t[1]], &c = patch.points[t[2]];
+    for (const Vector3d* p : {&a, &b, &c}) extent.low = extent.low.cwiseMin(*p), extent.high = extent.high.cwiseMax(*p);
+    extent.area += (b - a).cross(c - a);
   }
-  return sum;
+  return extent;
 }
 
 /// Axes of the plane with this normal. A coordinate plane gives coordinate axes, so that going there and
@@ -60,13 +68,11 @@ std::string describe(const Vector3d& p) {
 
 Plane fit_plane(const Patch& patch) {
   require_finite(patch);
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const auto& t : patch.triangles)
-    for (Index v : t) low = low.cwiseMin(patch.points[v]), high = high.cwiseMax(patch.points[v]);
-  const double size = (high - low).norm();
-  Vector3d normal = area_vector(patch);
+  const Extent extent = extent_of(patch);
+  const double size = (extent.high - extent.low).norm();
+  Vector3d normal = extent.area;
   if (!(normal.norm() > 0))
-    throw SurfaceError("its triangles have no area in sum, near " + describe(low) +
+    throw SurfaceError("its triangles have no area in sum, near " + describe(extent.low) +
                        "; the surface is closed, folded or degenerate");
   // Noise out of the plane must not tilt a coordinate plane.
   for (int i = 0; i < 3; ++i)
@@ -78,9 +84,13 @@ Plane fit_plane(const Patch& patch) {
   const Vector3d& first = patch.points[patch.triangles[0][0]];
   plane.origin = tilted ? first : Vector3d(first.dot(unit) * unit);
 
+  const auto lies_outside = [&](const Vector3d& p) {
+    return std::abs((p - first).dot(unit)) > kPlanarTolerance * size;
+  };
+  if (std::none_of(patch.points.begin(), patch.points.end(), lies_outside)) return plane;
   for (const auto& t : patch.triangles)
     for (Index v : t)
-      if (std::abs((patch.points[v] - first).dot(unit)) > kPlanarTolerance * size)
+      if (lies_outside(patch.points[v]))
         throw SurfaceError("not planar: the node at " + describe(patch.points[v]) +
                            " lies outside the plane of the rest; curved surfaces are not supported yet");
   return plane;

@@ -16,7 +16,7 @@ class Sides {
   Sides(const Patch& patch, const std::vector<Index>& order) : opposite_(3 * order.size(), kNone) {
     take_nodes(patch, order);
     first_.assign(row_.size(), kNone);
-    following_.resize(node_.size());
+    edges_.reserve(node_.size() / 2 + node_.size() / 16);
     for (Index c = 0; c < node_.size(); ++c) add(c, patch);
     for (const auto& [a, b] : patch.constraints) cut(number_[a], number_[b]);
   }
@@ -49,26 +49,28 @@ class Sides {
   void take_nodes(const Patch& patch, const std::vector<Index>& order) {
     number_.assign(patch.points.size(), kNone);
     node_.reserve(3 * order.size());
-    for (Index t : order)
-      for (Index v : patch.triangles[t]) {
-        if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v);
-        node_.push_back(number_[v]);
-      }
+    row_.reserve(patch.points.size());
+    for (Index t : order) node_.insert(node_.end(), patch.triangles[t].begin(), patch.triangles[t].end());
+    for (Index& v : node_) {
+      if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v);
+      v = number_[v];
+    }
   }
 
-  /// The side between a and b, in either direction, that came first. O(valence): among the sides from one lower node, the sum of both
-  /// nodes tells which it is.
+  /// The side between a and b, in either direction, that came first. O(valence).
   Index find(Index a, Index b) const {
-    Index s = first_[std::min(a, b)];
-    while (s != kNone && node_[s] + node_[next(s)] != a + b) s = following_[s];
-    return s;
+    const auto [lower, upper] = std::minmax(a, b);
+    for (Index e = first_[lower]; e != kNone; e = edges_[e].following)
+      if (edges_[e].upper == upper) return edges_[e].side;
+    return kNone;
   }
 
   void add(Index c, const Patch& patch) {
     const Index a = node_[c], b = node_[next(c)], other = find(a, b);
     if (other == kNone) {
-      following_[c] = first_[std::min(a, b)];
-      first_[std::min(a, b)] = c;
+      Index& first = first_[std::min(a, b)];
+      edges_.push_back({std::max(a, b), c, first});
+      first = Index(edges_.size() - 1);
       return;
     }
     if (node_[other] == a || opposite_[other] != kNone)
@@ -100,10 +102,14 @@ class Sides {
     for (e = c; (e = opposite_[previous(e)]) != kNone;) visit(e);
   }
 
-  std::vector<Index> number_, row_;       ///< nodes of rows of Patch::points, and back
-  std::vector<Index> node_;               ///< by corner
-  std::vector<Index> first_, following_;  ///< sides in a chain from the lower node of each edge, one for each edge
-  std::vector<Index> opposite_;           ///< by side
+  struct Edge {
+    Index upper, side, following;
+  };
+  std::vector<Index> number_, row_;  ///< nodes of rows of Patch::points, and back
+  std::vector<Index> node_;          ///< by corner
+  std::vector<Index> first_;         ///< by node: its first edge in a chain of those of which it is the lower node
+  std::vector<Edge> edges_;
+  std::vector<Index> opposite_;  ///< by side
 };
 
 /// The number of the region of each triangle; regions are numbered as they come. `sizes` gets their triangles.
@@ -156,7 +162,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
   for (std::size_t r = 0; r < regions.size(); ++r) {
     regions[r].triangles.reserve(sizes[r]);
     regions[r].row.reserve(sizes[r]);
-    regions[r].open.reserve(3 * sizes[r]);
+    regions[r].open.assign(3 * sizes[r], false);
   }
   std::vector<Index> vertex_of(sides.nodes(), kNone);
   for (Index k = 0; k < order.size(); ++k) {
@@ -173,8 +179,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
         if (must_stay[row]) region.fixed.push_back(vertex);
       }
       corners[i] = vertex;
-      region.open.push_back(sides.opposite(c) == kNone);
-      region.boundary_sides += region.open.back();
+      if (sides.opposite(c) == kNone) region.open[3 * region.triangles.size() + i] = true, ++region.boundary_sides;
     }
     region.triangles.push_back(corners);
     region.row.push_back(order[k]);
