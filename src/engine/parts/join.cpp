@@ -1,6 +1,7 @@
 #include "engine/parts/join.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "parallel/for_each.hpp"
 
@@ -13,52 +14,53 @@ using kernel::Mesh;
 class Fans {
  public:
   Fans(const Mesh& mesh, const Division& division)
-      : mesh_(mesh), division_(division), vertex_(mesh.half_edge_slots(), kNone) {}
-
-  /// The vertex at origin(h) of the part that h belongs to.
-  Index vertex_at(Index h, Region& region) {
-    if (vertex_[h] != kNone) return vertex_[h];
-    const auto vertex = Index(region.points.size());
-    const Index v = mesh_.origin(h);
-    region.points.push_back(mesh_.point(v));
-    region.node.push_back(v);
-    if (mesh_.is_fixed(v)) region.fixed.push_back(vertex);
-    Index e = h;
-    do {
-      vertex_[e] = vertex;
-      if (!is_inside(mesh_.prev(e))) break;
-      e = mesh_.rotate_ccw(e);
-    } while (e != h);
-    for (e = h; is_inside(e);) {
-      e = mesh_.rotate_cw(e);
-      if (vertex_[e] == vertex) break;
-      vertex_[e] = vertex;
-    }
-    return vertex;
+      : mesh_(mesh), division_(division), inner_(mesh.vertex_slots(), kNone), on_interface_(inner_.size(), false) {
+    for (Index v : division.interface) on_interface_[v] = true;
   }
 
   bool is_inside(Index h) const { return !mesh_.is_boundary_edge(h) && !division_.is_interface(mesh_, h); }
 
+  /// All triangles at v belong to one part, in one fan.
+  bool is_inner(Index v) const { return !mesh_.is_boundary(v) && !on_interface_[v]; }
+  /// The vertex of the part at an inner node; kNone at first.
+  Index& vertex_at(Index v) { return inner_[v]; }
+
+  /// The first half-edge, counter-clockwise, of a fan at a node that is not inner.
+  Index first_of_fan(Index h) const {
+    while (is_inside(h)) h = mesh_.rotate_cw(h);
+    return h;
+  }
+
  private:
   const Mesh& mesh_;
   const Division& division_;
-  std::vector<Index> vertex_;  ///< by half-edge
+  std::vector<Index> inner_;  ///< by node
+  std::vector<bool> on_interface_;
 };
-
-std::pair<Index, Index> edge_of(Index a, Index b) { return std::minmax(a, b); }
 
 Region region_of(const Mesh& mesh, Fans& fans, const std::vector<Index>& faces) {
   Region region;
   region.triangles.reserve(faces.size());
-  region.open.reserve(3 * faces.size());
+  region.open.assign(3 * faces.size(), false);
+  std::unordered_map<Index, Index> outer;  // vertices at nodes that are not inner, by the first half-edge of the fan
+  const auto vertex_at = [&](Index h) {
+    const Index v = mesh.origin(h);
+    Index* vertex = &fans.vertex_at(v);
+    if (*vertex == kNone && !fans.is_inner(v)) vertex = &outer.try_emplace(fans.first_of_fan(h), kNone).first->second;
+    if (*vertex == kNone) {
+      *vertex = Index(region.points.size());
+      region.points.push_back(mesh.point(v));
+      region.node.push_back(v);
+      if (mesh.is_fixed(v)) region.fixed.push_back(*vertex);
+    }
+    return *vertex;
+  };
   for (Index f : faces) {
     std::array<Index, 3> corners{};
     Index h = mesh.half_edge(f);
-    for (Index& corner : corners) {
-      corner = fans.vertex_at(h, region);
-      region.open.push_back(!fans.is_inside(h));
-      region.boundary_sides += region.open.back();
-      h = mesh.next(h);
+    for (Index i = 0; i < 3; ++i, h = mesh.next(h)) {
+      corners[i] = vertex_at(h);
+      if (!fans.is_inside(h)) region.open[3 * region.triangles.size() + i] = true, ++region.boundary_sides;
     }
     region.triangles.push_back(corners);
   }
@@ -94,9 +96,13 @@ Whole::Whole(const Mesh& mesh, const Division& division) {
     points.push_back(mesh.point(v));
     if (mesh.is_live_vertex(v) && mesh.is_fixed(v)) fixed.push_back(v);
   }
-  for (Index h = 0; h < mesh.half_edge_slots(); h += 2)
-    if (mesh.is_live_half_edge(h) && division.is_interface(mesh, h))
-      interface_edges.push_back(edge_of(mesh.origin(h), mesh.target(h)));
+  for (Index v : division.interface) {
+    Index h = mesh.out(v);
+    do {
+      if (v < mesh.target(h) && division.is_interface(mesh, h)) interface_edges.emplace_back(v, mesh.target(h));
+      h = mesh.rotate_ccw(h);
+    } while (h != mesh.out(v));
+  }
   std::sort(interface_edges.begin(), interface_edges.end());
 }
 
@@ -143,7 +149,7 @@ Mesh join(const Whole& whole, const std::vector<PartElements>& parts) {
     for (std::size_t side : part.boundary) {
       const auto& face = part.faces[side / 4];
       const std::size_t i = side % 4, next = i == 3 || face[i + 1] == kNone ? 0 : i + 1;
-      const auto edge = edge_of(vertex[face[i]], vertex[face[next]]);
+      const std::pair<Index, Index> edge = std::minmax(vertex[face[i]], vertex[face[next]]);
       if (!std::binary_search(whole.interface_edges.begin(), whole.interface_edges.end(), edge))
         open[4 * faces.size() + side] = true;
     }
