@@ -14,7 +14,9 @@ void next_round(std::uint32_t& round, std::vector<std::uint32_t>& marks) {
 
 }  // namespace
 
-void Cavity::new_round() {
+void Cavity::begin() {
+  faces_.clear(), outline_.clear(), inner_.clear();
+  traced_ = 0;
   if (face_mark_.size() < mesh_.face_slots()) face_mark_.resize(mesh_.face_slots(), 0);
   if (node_mark_.size() < mesh_.vertex_slots()) {
     node_mark_.resize(mesh_.vertex_slots(), 0);
@@ -41,30 +43,27 @@ bool Cavity::add_around(Index v) {
 }
 
 bool Cavity::start(Index v) {
-  new_round();
-  faces_.clear();
+  begin();
   return mesh_.is_free(v) && add_around(v) && make_convex();
 }
 
 bool Cavity::start_with_all() {
-  new_round();
-  faces_.clear();
+  begin();
   for (Index f = 0; f < mesh_.face_slots(); ++f)
     if (mesh_.is_live_face(f) && !add(f)) return false;
   return trace();
 }
 
 bool Cavity::grow(std::size_t most) {
-  const std::vector<Index> outline = outline_;
   bool irregular = false;
-  for (Index h : outline) {
+  for (Index h : outline_) {
     const Index v = mesh_.origin(h);
     if (!mesh_.is_free(v) || mesh_.valence(v) == 4) continue;
     irregular = true;
     if (!add_around(v)) return false;
   }
   if (!irregular)
-    for (Index h : outline)
+    for (Index h : outline_)
       if (mesh_.is_free(mesh_.origin(h)) && !add_around(mesh_.origin(h))) return false;
   return faces_.size() <= most && make_convex() && faces_.size() <= most;
 }
@@ -83,21 +82,29 @@ bool Cavity::make_convex() {
   return false;
 }
 
-/// Finds outline and inner nodes. False if the quads are no disc or an inner node is not free.
+template <class Visit>
+void Cavity::for_new_sides(const Visit& visit) const {
+  for (std::size_t k = traced_; k < faces_.size(); ++k) {
+    Index h = mesh_.half_edge(faces_[k]);
+    for (int i = 0; i < 4; ++i, h = mesh_.next(h)) visit(h);
+  }
+}
+
+/// Finds outline and inner nodes, from those before the last faces were added. False if the quads are no disc or an inner node
+/// is not free.
 bool Cavity::trace() {
-  inner_.clear();
+  std::swap(outline_, old_outline_);
   outline_.clear();
   outer_.clear();
   std::size_t border = 0;
   Index first = kNone;
-  for (Index f : faces_) {
-    Index h = mesh_.half_edge(f);
-    for (int i = 0; i < 4; ++i, h = mesh_.next(h)) {
-      if (contains(mesh_.face(Mesh::twin(h)))) continue;
-      leaving_[mesh_.origin(h)] = first = h;
-      ++border;
-    }
-  }
+  const auto take_side = [&](Index h) {
+    if (contains(mesh_.face(Mesh::twin(h)))) return;
+    leaving_[mesh_.origin(h)] = first = h;
+    ++border;
+  };
+  for (Index h : old_outline_) take_side(h);
+  for_new_sides(take_side);
   if (first == kNone) return false;
   Index h = first;
   do {
@@ -113,19 +120,21 @@ bool Cavity::trace() {
     for (; e != outline_[k]; e = mesh_.rotate_ccw(e)) ++outside;
     outer_.push_back(outside);
   }
-  // Nodes that are not on the outline.
+  // Nodes that are not on the outline any more, or never were.
   next_round(trace_, node_mark_);
   for (Index e : outline_) node_mark_[mesh_.origin(e)] = trace_;
-  for (Index f : faces_) {
-    Index e = mesh_.half_edge(f);
-    for (int i = 0; i < 4; ++i, e = mesh_.next(e)) {
-      const Index v = mesh_.origin(e);
-      if (node_mark_[v] == trace_) continue;
-      node_mark_[v] = trace_;
-      if (!mesh_.is_free(v)) return false;
-      inner_.push_back(v);
-    }
-  }
+  bool free = true;
+  const auto take_node = [&](Index e) {
+    const Index v = mesh_.origin(e);
+    if (node_mark_[v] == trace_) return;
+    node_mark_[v] = trace_;
+    free = free && mesh_.is_free(v);
+    inner_.push_back(v);
+  };
+  for (Index e : old_outline_) take_node(e);
+  for_new_sides(take_node);
+  if (!free) return false;
+  traced_ = faces_.size();
   // Euler's formula of a disc: V - E + F = 1.
   return inner_.size() + border + faces_.size() == (4 * faces_.size() + border) / 2 + 1;
 }

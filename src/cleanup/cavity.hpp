@@ -33,10 +33,15 @@ class Cavity {
   bool add_around(Index v);
   bool make_convex();
   bool trace();
-  void new_round();
+  void begin();
+  /// Calls visit(h) for the half-edges of the faces that were added since the outline was found.
+  template <class Visit>
+  void for_new_sides(const Visit& visit) const;
 
   const kernel::Mesh& mesh_;
   std::vector<Index> faces_, outline_, inner_;
+  std::vector<Index> old_outline_;  ///< the one before
+  std::size_t traced_ = 0;          ///< faces when the outline was found
   std::vector<int> outer_;
   std::vector<std::uint32_t> face_mark_, node_mark_;
   std::vector<Index> leaving_;  ///< by node: the half-edge of the outline that starts there
