@@ -6,8 +6,7 @@
 
 namespace qmorph::cleanup {
 
-int Score::ideal(Index v) const {
-  if (!mesh_.is_boundary(v)) return 4;
+int Score::boundary_ideal(Index v) const {
   if (boundary_ideal_.size() <= v) boundary_ideal_.resize(mesh_.vertex_slots(), 0);
   if (boundary_ideal_[v] == 0) {
     const double quads = std::round(inside_angle(v) / (0.5 * std::numbers::pi));

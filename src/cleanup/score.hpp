@@ -13,7 +13,7 @@ class Score {
 
   /// Edges that should meet at v: 4 inside, on the boundary one more than the quads that share its angle evenly,
   /// round(angle / 90 degrees) but at least 1. Design section 5.
-  int ideal(Index v) const;
+  int ideal(Index v) const { return mesh_.is_boundary(v) ? boundary_ideal(v) : 4; }
   /// At a node of the boundary: the angle of the inside, in (0, 2 pi].
   double inside_angle(Index v) const;
   int excess(Index v) const { return int(mesh_.valence(v)) - ideal(v); }
@@ -28,6 +28,8 @@ class Score {
   }
 
  private:
+  int boundary_ideal(Index v) const;
+
   const kernel::Mesh& mesh_;
   mutable std::vector<signed char> boundary_ideal_;  ///< 0: not known yet; boundaries do not move
 };
