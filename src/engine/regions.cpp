@@ -173,8 +173,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
       Index& vertex = vertex_of[sides.node(c)];
       if (vertex == kNone) {
         const Index row = sides.row(sides.node(c));
-        vertex = Index(region.points.size());
-        region.points.push_back(plane_points[row]);
+        vertex = Index(region.node.size());
         region.node.push_back(row);
         if (must_stay[row]) region.fixed.push_back(vertex);
       }
@@ -183,6 +182,10 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
     }
     region.triangles.push_back(corners);
     region.row.push_back(order[k]);
+  }
+  for (Region& region : regions) {
+    region.points.reserve(region.node.size());
+    for (Index row : region.node) region.points.push_back(plane_points[row]);
   }
   return regions;
 }

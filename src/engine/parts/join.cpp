@@ -48,8 +48,7 @@ Region region_of(const Mesh& mesh, Fans& fans, const std::vector<Index>& faces) 
     Index* vertex = &fans.vertex_at(v);
     if (*vertex == kNone && !fans.is_inner(v)) vertex = &outer.try_emplace(fans.first_of_fan(h), kNone).first->second;
     if (*vertex == kNone) {
-      *vertex = Index(region.points.size());
-      region.points.push_back(mesh.point(v));
+      *vertex = Index(region.node.size());
       region.node.push_back(v);
       if (mesh.is_fixed(v)) region.fixed.push_back(*vertex);
     }
@@ -64,6 +63,8 @@ Region region_of(const Mesh& mesh, Fans& fans, const std::vector<Index>& faces) 
     }
     region.triangles.push_back(corners);
   }
+  region.points.reserve(region.node.size());
+  for (Index v : region.node) region.points.push_back(mesh.point(v));
   return region;
 }
 
