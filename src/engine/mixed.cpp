@@ -6,6 +6,7 @@
 
 #include "engine/prepare.hpp"
 #include "geometry/predicates.hpp"
+#include "kernel/sort_unique.hpp"
 #include "qmorph/error.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
@@ -66,8 +67,7 @@ std::vector<std::vector<Index>> find_bad_sets(const Mesh& mesh) {
           open.push_back(g);
         }
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sort_unique(nodes);
     sets.push_back(std::move(nodes));
   }
   return sets;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/sort_unique.hpp"
+
 namespace qmorph::front {
 namespace {
 
@@ -99,8 +101,7 @@ void FilmRecorder::record_nodes() {
   mesh_.for_edited_vertices([&](Index v) {
     if (mesh_.is_live_vertex(v) && (!seen_[v] || place(v) != places_[v])) changed_.push_back(v);
   });
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  sort_unique(changed_);
   put(changed_.size());
   Index before = near_;
   for (Index v : changed_) {
@@ -121,8 +122,7 @@ void FilmRecorder::record_faces() {
   };
   mesh_.for_edited_faces(note);
   mesh_.for_edited_half_edges([&](Index h) { note(mesh_.face(h)); });
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  sort_unique(changed_);
   put(changed_.size());
   Index before = 0;
   for (Index f : changed_) {

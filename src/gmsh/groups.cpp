@@ -5,6 +5,7 @@
 
 #include "gmsh/compat.hpp"
 #include "gmsh/session.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::adapter {
 
@@ -35,8 +36,7 @@ void add_to_group(int dim, int group, const std::vector<int>& entities, const st
   }
   ::gmsh::model::getPhysicalName(dim, group, kept);
   all.insert(all.end(), entities.begin(), entities.end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   ::gmsh::model::addPhysicalGroup(dim, all, group);
   if (kept.empty()) kept = name;
   if (!kept.empty()) ::gmsh::model::setPhysicalName(dim, group, kept);

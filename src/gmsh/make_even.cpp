@@ -8,6 +8,7 @@
 #include "gmsh/model_mesh.hpp"
 #include "gmsh/session.hpp"
 #include "gmsh/split_edges.hpp"
+#include "kernel/sort_unique.hpp"
 #include "qmorph/gmsh.hpp"
 
 namespace qmorph {
@@ -90,9 +91,7 @@ EvenReport make_even(const std::vector<int>& surfaces, const std::vector<int>& k
   report.odd_regions = std::size_t(std::count(graph.odd.begin(), graph.odd.end(), true));
   const parity::Plan plan = parity::plan_splits(graph.odd, graph.links);
   for (Index region : plan.odd_left) report.odd_surfaces.push_back(read.mesh.entities[graph.surface[region]].tag);
-  std::sort(report.odd_surfaces.begin(), report.odd_surfaces.end());
-  report.odd_surfaces.erase(std::unique(report.odd_surfaces.begin(), report.odd_surfaces.end()),
-                            report.odd_surfaces.end());
+  sort_unique(report.odd_surfaces);
   if (plan.splits.empty()) return report;
 
   EdgeSplitter splitter(read.mesh);

@@ -8,6 +8,7 @@
 
 #include "gmsh/high_order.hpp"
 #include "gmsh/orientation.hpp"
+#include "kernel/sort_unique.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -201,8 +202,7 @@ void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges
   add_constraints(part.patch.triangles, fixed_edges, part);
   add_constraints(part.patch.quads, fixed_edges, part);
   auto& constraints = part.patch.constraints;
-  std::sort(constraints.begin(), constraints.end());
-  constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+  sort_unique(constraints);
 
   for (Index i = 0; i < part.rows.size(); ++i) {
     const Index row = part.rows[i];
@@ -237,8 +237,7 @@ FixedEdges::FixedEdges(const ModelMesh& mesh, const NodeUse& use) {
   for (std::size_t i = 1; i < shared.size(); ++i)
     if (shared[i].first == shared[i - 1].first && shared[i].second != shared[i - 1].second)
       keys_.push_back(shared[i].first);
-  std::sort(keys_.begin(), keys_.end());
-  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  sort_unique(keys_);
   touched_.assign(mesh.tags.size(), false);
   for (std::uint64_t key : keys_) touched_[key >> 32] = touched_[key & 0xffffffff] = true;
 }

@@ -12,6 +12,7 @@
 #include "gmsh/compat.hpp"
 #include "gmsh/scratch_file.hpp"
 #include "gmsh/session.hpp"
+#include "kernel/sort_unique.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -51,12 +52,6 @@ std::vector<Index> image_of_part(const PeriodicLink& link, const std::map<Index,
       slave.patch.quads.size() != master.patch.quads.size())
     refuse_image(link);
   return image;
-}
-
-template <class Item>
-void make_unique(std::vector<Item>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 Eigen::Vector3d transformed(const std::vector<double>& t, const Eigen::Vector3d& p) {
@@ -130,8 +125,8 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
     for (Index i : found->patch.fixed) part.patch.fixed.push_back(back[i]);
     for (const auto& [a, b] : found->patch.constraints)
       part.patch.constraints.push_back({std::min(back[a], back[b]), std::max(back[a], back[b])});
-    make_unique(part.patch.fixed);
-    make_unique(part.patch.constraints);
+    sort_unique(part.patch.fixed);
+    sort_unique(part.patch.constraints);
     ordered.push_back(*found);
   }
   slave.parts = std::move(ordered);

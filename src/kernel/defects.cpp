@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "kernel/mesh.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::kernel {
 namespace {
@@ -46,14 +47,12 @@ class Inspector {
     const Index n = mesh_.next(h), p = mesh_.prev(h);
     if (!mesh_.is_live_half_edge(Mesh::twin(h))) return report("h", h, ": twin is dead");
     if (n == kNone || p == kNone) return report("h", h, ": not linked");
-    if (!mesh_.is_live_half_edge(n) || !mesh_.is_live_half_edge(p))
-      return report("h", h, ": neighbour is dead");
+    if (!mesh_.is_live_half_edge(n) || !mesh_.is_live_half_edge(p)) return report("h", h, ": neighbour is dead");
     if (mesh_.prev(n) != h) report("h", h, ": prev(next) is not itself");
     if (mesh_.origin(n) != mesh_.target(h)) report("h", h, ": next starts elsewhere");
     if (mesh_.face(n) != mesh_.face(h)) report("h", h, ": next has another face");
     if (!mesh_.is_live_vertex(mesh_.origin(h))) report("h", h, ": origin is dead");
-    if (mesh_.face(h) != kNone && !mesh_.is_live_face(mesh_.face(h)))
-      report("h", h, ": face is dead");
+    if (mesh_.face(h) != kNone && !mesh_.is_live_face(mesh_.face(h))) report("h", h, ": face is dead");
   }
 
   void check_face(Index f) {
@@ -86,8 +85,7 @@ class Inspector {
       h = mesh_.rotate_ccw(h);
     } while (h != mesh_.out(v) && neighbours < 100000);
     if (outside > 1) report("v", v, ": ", outside, " boundary half-edges leave it");
-    if (outside == 1 && mesh_.face(mesh_.out(v)) != kNone)
-      report("v", v, ": on the boundary, but out() is inside");
+    if (outside == 1 && mesh_.face(mesh_.out(v)) != kNone) report("v", v, ": on the boundary, but out() is inside");
     // Only the two boundary edges of a slit that is one edge long may join the same nodes.
     for (Index u : inner)
       if (std::count(all.begin(), all.end(), u) > 1) report("v", v, ": two edges to one neighbour");
@@ -112,14 +110,11 @@ void Mesh::check_touched() const {
         h = rotate_ccw(h);
       } while (h != out(v) && touched.size() < 1000000);
     }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
   const auto defects = Inspector(*this, true).look_at(touched);
   if (!defects.empty()) throw std::logic_error("after an operation: " + defects[0]);
 }
 
-std::vector<std::string> find_defects(const Mesh& mesh, bool geometry) {
-  return Inspector(mesh, geometry).run();
-}
+std::vector<std::string> find_defects(const Mesh& mesh, bool geometry) { return Inspector(mesh, geometry).run(); }
 
 }  // namespace qmorph::kernel

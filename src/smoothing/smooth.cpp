@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/z_curve.hpp"
+#include "kernel/sort_unique.hpp"
 #include "parallel/for_each.hpp"
 #include "smoothing/node_energy.hpp"
 #include "smoothing/thesis_smoothing.hpp"
@@ -245,8 +246,7 @@ void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
 bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings) {
   std::vector<Index> around(nodes.begin(), nodes.end());
   for (int ring = 0; ring <= rings; ++ring) {
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sort_unique(around);
     if (ring == rings) break;
     const std::size_t count = around.size();
     for (std::size_t i = 0; i < count; ++i) {

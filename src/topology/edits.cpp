@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "kernel/sort_unique.hpp"
+
 namespace qmorph::topology {
 
 Index remove_doublet(kernel::Mesh& mesh, Index v) {
@@ -26,8 +28,7 @@ void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
     nodes.insert(nodes.end(), left.begin(), left.end());
   }
   std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
 }
 
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
@@ -47,8 +48,7 @@ std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Inde
       h = mesh.rotate_ccw(h);
     } while (h != mesh.out(v));
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_unique(faces);
   return faces;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cleanup/patterns/match.hpp"
 #include "cleanup/transaction.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
 namespace {
@@ -78,8 +79,7 @@ class Trial {
     made_.clear();
     const bool kept =
         attempt(mesh_, relaxing_, kRings, near, nodes_, edit, [&](const Worth& before, const Worth& after) {
-          std::sort(made_.begin(), made_.end());
-          made_.erase(std::unique(made_.begin(), made_.end()), made_.end());
+          sort_unique(made_);
           for (const auto* some : {&scored_, &made_})
             for (Index v : *some)
               if (mesh_.is_live_vertex(v)) gain -= score_.cost(v);
@@ -106,8 +106,7 @@ class Trial {
         h = mesh_.rotate_ccw(h);
       } while (h != mesh_.out(v));
     }
-    std::sort(scored_.begin(), scored_.end());
-    scored_.erase(std::unique(scored_.begin(), scored_.end()), scored_.end());
+    sort_unique(scored_);
   }
 
   Mesh& mesh_;
@@ -129,8 +128,7 @@ std::vector<Index> nodes_beside(const Mesh& mesh, Index f) {
     nodes.push_back(mesh.origin(h));
     h = mesh.next(h);
   } while (h != start);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 
@@ -174,8 +172,7 @@ class Rounds {
       changed_.clear();
       for (Index v : nodes)
         if (mesh_.is_live_vertex(v)) visit(v);
-      std::sort(changed_.begin(), changed_.end());
-      changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+      sort_unique(changed_);
       std::swap(nodes, changed_);
     }
   }

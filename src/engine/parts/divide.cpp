@@ -8,6 +8,7 @@
 
 #include "engine/parts/cutting_line.hpp"
 #include "engine/parts/interface.hpp"
+#include "kernel/sort_unique.hpp"
 #include "parallel/for_each.hpp"
 
 namespace qmorph {
@@ -35,11 +36,6 @@ struct Part {
   std::vector<Index> faces;    ///< ascending
   std::vector<Index> outline;  ///< half-edges of the faces
 };
-
-void make_unique(std::vector<Index>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 class Dividing {
  public:
@@ -79,7 +75,7 @@ class Dividing {
       for (Index h : edges) sides[int(other_[mesh_.face(h)])].outline.push_back(h);
     std::vector<Index> nodes;
     for (Index h : interface) nodes.push_back(mesh_.origin(h));
-    make_unique(nodes);
+    sort_unique(nodes);
     straighten_interfaces(mesh_, division_, nodes);
     parts_[part] = std::move(sides[0]);
     parts_.push_back(std::move(sides[1]));
@@ -116,7 +112,7 @@ class Dividing {
         interface.push_back(h);
         interface.push_back(Mesh::twin(h));
       });
-    make_unique(interface);
+    sort_unique(interface);
     return interface;
   }
 
@@ -145,7 +141,7 @@ class Dividing {
       for_each_side(f, [&](Index h) {
         if (part_beyond(h) == part) teeth.push_back(mesh_.face(Mesh::twin(h)));
       });
-    make_unique(teeth);
+    sort_unique(teeth);
     while (!teeth.empty()) {
       const Index f = teeth.back();
       teeth.pop_back();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kernel/sort_unique.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
 
@@ -59,8 +60,7 @@ std::vector<Index> nodes_around(const Mesh& mesh, const std::vector<Index>& node
         h = mesh.rotate_ccw(h);
       } while (h != mesh.out(around[i]));
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sort_unique(around);
   }
   std::erase_if(around, [&](Index v) { return std::binary_search(nodes.begin(), nodes.end(), v); });
   return around;
@@ -169,8 +169,7 @@ void finish_interfaces(Mesh& mesh, Division& division) {
     straighten_interfaces(mesh, division, along_interfaces(mesh, division, node));
     odd[tree.parent[part]] ^= 1;
   }
-  std::sort(division.interface.begin(), division.interface.end());
-  division.interface.erase(std::unique(division.interface.begin(), division.interface.end()), division.interface.end());
+  sort_unique(division.interface);
 }
 
 }  // namespace qmorph
