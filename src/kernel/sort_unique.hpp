@@ -1,6 +1,10 @@
 #pragma once
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <vector>
+
+#include "qmorph/patch.hpp"
 
 namespace qmorph {
 
@@ -9,6 +13,23 @@ template <class Value>
 void sort_unique(std::vector<Value>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The same for indices, which are near to each other as a rule: a bit is set for each, and the bits are read in their order. Sorting
+/// takes ten times as long, for the processor can foresee no comparison.
+inline void sort_unique(std::vector<Index>& values) {
+  constexpr std::size_t kWord = 64, kMostWordsPerValue = 4;
+  if (values.empty()) return;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const Index first = *least;
+  const std::size_t words = (*most - first) / kWord + 1;
+  if (words > kMostWordsPerValue * values.size()) return sort_unique<Index>(values);
+  std::vector<std::uint64_t> bits(words, 0);
+  for (const Index v : values) bits[(v - first) / kWord] |= std::uint64_t(1) << (v - first) % kWord;
+  values.clear();
+  for (std::size_t w = 0; w < words; ++w)
+    for (std::uint64_t word = bits[w]; word != 0; word &= word - 1)
+      values.push_back(first + Index(w * kWord) + Index(std::countr_zero(word)));
 }
 
 }  // namespace qmorph
