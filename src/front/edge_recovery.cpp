@@ -53,8 +53,7 @@ Crossings find_crossings(const Mesh& mesh, Index wedge, Index v) {
 
 bool crosses(const Mesh& mesh, Index e, const Vec2& from, const Vec2& to) {
   const Vec2 &a = mesh.point(mesh.origin(e)), &b = mesh.point(mesh.target(e));
-  return orientation(from, to, a) * orientation(from, to, b) < 0 &&
-         orientation(a, b, from) * orientation(a, b, to) < 0;
+  return orientation(from, to, a) * orientation(from, to, b) < 0 && orientation(a, b, from) * orientation(a, b, to) < 0;
 }
 
 }  // namespace

@@ -37,24 +37,26 @@ bool Front::is_angle_below(Index incoming, Index outgoing, double limit) const {
   return angle_between(incoming, outgoing) < limit;
 }
 
-State Front::state(Index h) const {
+bool Front::is_corner(Index incoming, Index outgoing) const {
   // Compared by squares of cosines with their signs: no inverse trigonometry, whose last bit differs between machines.
-  const auto is_corner = [&](Index incoming, Index outgoing) {
-    const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
-    const double area = cross(ahead, back), dot = ahead.dot(back);
-    if (area < 0 || (area == 0 && dot > 0)) return false;
-    return dot * std::abs(dot) > corner_cosine_ * std::abs(corner_cosine_) * ahead.squaredNorm() * back.squaredNorm();
-  };
-  return {is_corner(prev(h), h), is_corner(h, next(h))};
+  const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
+  const double area = cross(ahead, back), dot = ahead.dot(back);
+  if (area < 0 || (area == 0 && dot > 0)) return false;
+  return dot * std::abs(dot) > corner_cosine_ * std::abs(corner_cosine_) * ahead.squaredNorm() * back.squaredNorm();
+}
+
+Base Front::look_at(Index h) const {
+  const Index before = prev(h), after = next(h);
+  return {h, before, after, {is_corner(before, h), is_corner(h, after)}};
 }
 
 Front::Key Front::key_of(unsigned level, unsigned priority, double length) {
   return std::min(level, kMostLevels) << kLevelShift | priority << kPriorityShift | length_class(length);
 }
 
-void Front::push(Index h, bool forced) {
+void Front::push(Index h, State state, bool forced) {
   if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
-  const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state(h).corners()), mesh_.length(h));
+  const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state.corners()), mesh_.length(h));
   if (std::exchange(queued_[h], key) != key) queue_[key].push_back(h);
 }
 

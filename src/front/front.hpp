@@ -25,6 +25,12 @@ struct State {
   int corners() const { return int(left) + int(right); }
 };
 
+/// A front edge, its neighbours on the front and its state, looked up once.
+struct Base {
+  Index h = kNone, before = kNone, after = kNone;
+  State state;
+};
+
 class Front {
  public:
   Front(const Mesh& mesh, const FrontOptions& options);
@@ -33,18 +39,26 @@ class Front {
   bool contains(Index h) const {
     return mesh_.is_triangle(mesh_.face(h)) && !mesh_.is_triangle(mesh_.face(Mesh::twin(h)));
   }
-  /// Calls visit(h) for every front edge that starts or ends at v.
+  /// Calls visit(incoming, outgoing) for the front edges on both sides of each wedge of triangles at v.
   template <class Visit>
-  void for_edges_at(Index v, const Visit& visit) const {
+  void for_wedges_at(Index v, const Visit& visit) const {
     const Index start = mesh_.out(v);
-    Index h = start;
+    Index h = start, outgoing = kNone, first_incoming = kNone;
     bool was_triangle = mesh_.is_triangle(mesh_.face(Mesh::twin(h)));
     do {
       const bool is_triangle = mesh_.is_triangle(mesh_.face(h));
-      if (is_triangle != was_triangle) visit(is_triangle ? h : Mesh::twin(h));
+      if (is_triangle && !was_triangle) {
+        outgoing = h;
+      } else if (!is_triangle && was_triangle) {
+        if (outgoing == kNone)
+          first_incoming = Mesh::twin(h);  // the way began inside its wedge
+        else
+          visit(Mesh::twin(h), outgoing);
+      }
       was_triangle = is_triangle;
       h = mesh_.rotate_ccw(h);
     } while (h != start);
+    if (first_incoming != kNone) visit(first_incoming, outgoing);
   }
   /// The front edge that follows (precedes) h through the triangles ahead. O(valence).
   Index next(Index h) const {
@@ -63,7 +77,10 @@ class Front {
   double angle_between(Index incoming, Index outgoing) const;
   /// angle_between() is below `limit`. Mostly it is far above, which takes no arc tangent.
   bool is_angle_below(Index incoming, Index outgoing, double limit) const;
-  State state(Index h) const;
+  Base look_at(Index h) const;
+  State state(Index h) const { return look_at(h).state; }
+  /// The node between two front edges that follow each other is a corner. Thesis 2.2.2.
+  bool is_corner(Index incoming, Index outgoing) const;
 
   // --- levels -----------------------------------------------------------------------------------------
   /// Rows between the front edge and the boundary. Thesis 2.2.3.
@@ -73,11 +90,9 @@ class Front {
 
   // --- queue ------------------------------------------------------------------------------------------
   /// (Re)enters a front edge with its present state, level and length. `forced`: as if in state 1-1, once.
-  void push(Index h, bool forced = false);
-  /// Re-enters every front edge that starts or ends at v.
-  void push_around(Index v) {
-    for_edges_at(v, [&](Index h) { push(h); });
-  }
+  void push(Index h, bool forced = false) { push(h, state(h), forced); }
+  /// The same where the state is known.
+  void push(Index h, State state, bool forced);
   /// The edge to process next, or kNone when the queue is empty. Thesis 3.5.2.
   Index pop();
   bool was_forced() const { return popped_forced_; }

@@ -2,9 +2,7 @@
 
 namespace qmorph::front {
 
-void LoopColours::set_label(Index v, unsigned system, unsigned colour) {
-  labels_.set(v, 1 + 2 * system + colour);
-}
+void LoopColours::set_label(Index v, unsigned system, unsigned colour) { labels_.set(v, 1 + 2 * system + colour); }
 
 void LoopColours::colour_loop(Index h) {
   const auto system = unsigned(systems_.size());

@@ -35,10 +35,10 @@ class Morph {
     const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
     for (int round = 0; round < kMostRounds; ++round) {
       const std::size_t made_before = made();
-      for (Index base; (base = next_base()) != kNone;) {
+      for (Base base; (base = next_base()).h != kNone;) {
         if (++steps_ > most_steps) return counts_;
         if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made()) / double(quads_expected)));
-        if (!advance(base)) set_aside(base);
+        if (!advance(base)) set_aside(base.h);
         if (check_) check();
       }
       if (made() == made_before) break;
@@ -74,8 +74,9 @@ class Morph {
     for (Index h = 0; h < mesh_.half_edge_slots(); ++h)
       if (mesh_.is_live_half_edge(h) && front_.contains(h) && !colours_.is_coloured(mesh_.origin(h)))
         colours_.colour_loop(h);
+    states_.resize(mesh_.half_edge_slots());
     for (Index h = 0; h < mesh_.half_edge_slots(); ++h)
-      if (mesh_.is_live_half_edge(h) && front_.contains(h)) front_.push(h);
+      if (mesh_.is_live_half_edge(h) && front_.contains(h)) front_.push(h, states_[h] = front_.state(h), false);
   }
 
   void check() const {
@@ -84,28 +85,29 @@ class Morph {
   }
 
   /// Thesis 3.5.2: the queue's first, or a much shorter neighbour of it unless it is in state 1-1.
-  Index next_base() {
+  Base next_base() {
     const Index h = front_.pop();
-    if (h == kNone || front_.was_forced() || front_.state(h).corners() == 2) return h;
-    const double length = mesh_.length(h);
+    if (h == kNone) return {};
+    const Base first = front_.look_at(h);
+    if (front_.was_forced() || first.state.corners() == 2) return first;
     Index shortest = h;
-    double least = length / options_.transition_ratio;
-    for (Index n : {front_.prev(h), front_.next(h)})
+    double least = mesh_.length(h) / options_.transition_ratio;
+    for (Index n : {first.before, first.after})
       if (!is_aside_[n] && mesh_.length(n) < least) shortest = n, least = mesh_.length(n);
-    if (shortest != h) front_.push(h);
-    return shortest;
+    if (shortest == h) return first;
+    front_.push(h);
+    return front_.look_at(shortest);
   }
 
   /// One base edge: a special case, a small loop or a quad. False if the edge has to be set aside.
-  bool advance(Index base) {
+  bool advance(const Base& base) {
     const bool forced = front_.was_forced();
-    base_origin_ = mesh_.origin(base), base_target_ = mesh_.target(base);
-    if (!forced)
-      for (bool left : {true, false})
-        if (special_case(base, left)) return true;
-    if (!forced && refine(base)) return true;
-    if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, base); }))
-      return ++counts_.small_loops, true;
+    base_origin_ = mesh_.origin(base.h), base_target_ = mesh_.target(base.h);
+    if (!forced && (special_case(base, base.before, base.h) || special_case(base, base.h, base.after))) return true;
+    if (!forced && refine(base.h)) return true;
+    if (const SmallLoop loop = find_small_loop(step_, base); loop.size != 0)
+      if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, loop); }))
+        return ++counts_.small_loops, true;
     if (attempt(FilmStep::quad, [&] { return make_quad(base); })) return ++counts_.quads, true;
     return false;
   }
@@ -145,27 +147,31 @@ class Morph {
 
   /// Enters anew the front edges whose states may have changed: those at nodes that moved, and the next to those.
   void reclassify() {
-    moved_.clear(), touched_.clear();
+    moved_.clear(), touched_.clear(), edges_.clear();
     std::erase_if(step_.moved, [&](Index v) { return !moved_.insert(v); });
-    const auto touch = [&](Index h) {
-      if (touched_.insert(h / 2)) enter(h);  // of an edge's two sides one at most is on the front
-    };
     for (Index v : step_.moved) {
       if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
-      front_.for_edges_at(v, [&](Index h) {
-        touch(h);
-        const bool starts = mesh_.origin(h) == v;
-        const bool has_turn = moved_.contains(starts ? mesh_.target(h) : mesh_.origin(h));
-        if (!has_turn) touch(starts ? front_.next(h) : front_.prev(h));
+      front_.for_wedges_at(v, [&](Index in, Index out) {
+        note_corner(in, out);
+        if (!moved_.contains(mesh_.origin(in))) note_corner(front_.prev(in), in);
+        if (!moved_.contains(mesh_.target(out))) note_corner(out, front_.next(out));
       });
     }
+    for (Index h : edges_) is_aside_.set(h, false), front_.push(h, states_[h], false);
     if (forced_ != kNone && front_.contains(forced_)) enter(forced_, true);
     forced_ = kNone;
   }
 
-  /// Seam, transition seam or transition split at one end of the base edge. Thesis 2.2.4.
-  bool special_case(Index base, bool left) {
-    const Index in = left ? front_.prev(base) : base, out = left ? base : front_.next(base);
+  /// Notes what the node between two front edges is in the states of both.
+  void note_corner(Index in, Index out) {
+    states_.resize(std::max<std::size_t>(states_.size(), mesh_.half_edge_slots()));
+    states_[in].right = states_[out].left = front_.is_corner(in, out);
+    for (Index h : {in, out})
+      if (touched_.insert(h / 2)) edges_.push_back(h);  // of an edge's two sides one at most is on the front
+  }
+
+  /// Seam, transition seam or transition split at one end of the base edge, between the front edges in and out. Thesis 2.2.4.
+  bool special_case(const Base& base, Index in, Index out) {
     if (in == out || Mesh::twin(in) == out) return false;
     const double l1 = mesh_.length(in), l2 = mesh_.length(out);
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
@@ -179,7 +185,7 @@ class Morph {
       }
       return false;
     }
-    if (!transition || front_.state(base).corners() == 2) return false;
+    if (!transition || base.state.corners() == 2) return false;
     return split(FilmStep::transition_split, l1 > l2 ? in : out, mesh_.target(in));
   }
 
@@ -209,9 +215,8 @@ class Morph {
   /// Quads that should share the angle at a node of the front; the side edge stands off the base edge by one of them.
   static double quads_in(double angle) { return std::max(2.0, std::round(angle / (0.5 * std::numbers::pi))); }
 
-  bool make_quad(Index base) {
-    const State state = front_.state(base);
-    const Index before = front_.prev(base), after = front_.next(base);
+  bool make_quad(const Base& at) {
+    const auto& [base, before, after, state] = at;
     if (before == after) return false;  // a loop of two
     const Index n0 = mesh_.origin(base), n1 = mesh_.target(base);
     // The reused sides first: what the other side makes must not end there.
@@ -276,7 +281,9 @@ class Morph {
   std::size_t steps_ = 0;
   LoggedColumn<bool> is_aside_;
   std::vector<Index> aside_;
+  std::vector<State> states_;  ///< of front edges, by half-edge, as they were last looked at
   MarkSet moved_, touched_;
+  std::vector<Index> edges_;  ///< to enter anew
   std::vector<std::pair<Index, Index>> joins_;
   Index forced_ = kNone;
   FilmRecorder* recorder_;  ///< or null

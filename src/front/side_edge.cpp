@@ -33,9 +33,9 @@ bool is_too_short(const Step& step, Index node, const Vec2& end) {
 }
 
 struct Fan {
-  Index best = kNone;         ///< interior edge of the fan nearest to the ideal direction
+  Index best = kNone;  ///< interior edge of the fan nearest to the ideal direction
   double best_angle = kAnyAngle;
-  Index wedge = kNone;        ///< outgoing half-edge of the triangle that the ideal direction enters
+  Index wedge = kNone;  ///< outgoing half-edge of the triangle that the ideal direction enters
 };
 
 Fan look_around(const Step& step, const Corner& corner, const Taken& taken) {
@@ -78,10 +78,8 @@ Index swap_for_side_edge(Step& step, const Corner& corner, const Taken& taken, I
   if (on_front) {
     if (!step.colours.may_join(node, far)) return kNone;
   } else {
-    const double off =
-        std::abs(ccw_angle(mesh.vector(corner.outgoing), side) - corner.ideal_angle);
-    const double most = step.options.side_edge_length *
-                        (mesh.length(corner.incoming) + mesh.length(corner.outgoing));
+    const double off = std::abs(ccw_angle(mesh.vector(corner.outgoing), side) - corner.ideal_angle);
+    const double most = step.options.side_edge_length * (mesh.length(corner.incoming) + mesh.length(corner.outgoing));
     if (off > step.options.side_edge_angle || side.norm() > most) return kNone;
   }
   mesh.flip(o);
@@ -105,12 +103,11 @@ Index define_side_edge(Step& step, const Corner& corner, const Taken& taken) {
   kernel::Mesh& mesh = step.mesh;
   const Fan fan = look_around(step, corner, taken);
   step.notes.side = SideEdge::existing;
-  if (fan.best != kNone && fan.best_angle < step.options.side_edge_angle)
-    return without_odd_loop(step, fan.best);
+  if (fan.best != kNone && fan.best_angle < step.options.side_edge_angle) return without_odd_loop(step, fan.best);
 
   const Index opposite = mesh.next(fan.wedge);
-  const bool is_free = mesh.is_triangle(mesh.face(Mesh::twin(opposite))) &&
-                       opposite != taken.half_edge && Mesh::twin(opposite) != taken.half_edge;
+  const bool is_free = mesh.is_triangle(mesh.face(Mesh::twin(opposite))) && opposite != taken.half_edge &&
+                       Mesh::twin(opposite) != taken.half_edge;
   if (is_free) {
     if (const Index side = swap_for_side_edge(step, corner, taken, opposite); side != kNone)
       return step.notes.side = SideEdge::swapped, side;

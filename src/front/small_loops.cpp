@@ -7,23 +7,11 @@
 namespace qmorph::front {
 namespace {
 
-/// A loop with more edges, or more triangles inside, than this is no remainder: it is meshed by the front.
-constexpr std::size_t kMostEdges = 6;
+/// A loop with more triangles inside than this is no remainder: it is meshed by the front.
 constexpr std::size_t kMostTriangles4 = 6;
 constexpr std::size_t kMostTriangles6 = 8;
 /// A remainder closed at once must have corners at least this good.
 constexpr double kLeastSine = 0.2;
-
-/// The loop of h, or its first edges if it has more than kMostEdges.
-std::span<const Index> loop_of(const Step& step, Index h, std::array<Index, kMostEdges + 1>& room) {
-  std::size_t size = 0;
-  Index e = h;
-  do {
-    room[size++] = e;
-    e = step.front.next(e);
-  } while (e != h && size < room.size());
-  return {room.data(), size};
-}
 
 double corner_quality(const Mesh& mesh, std::span<const Index> loop, std::size_t a, std::size_t b, std::size_t c,
                       std::size_t d) {
@@ -34,14 +22,27 @@ double corner_quality(const Mesh& mesh, std::span<const Index> loop, std::size_t
 
 }  // namespace
 
-bool close_small_loop(Step& step, Index h) {
+SmallLoop find_small_loop(const Step& step, const Base& base) {
+  const Mesh& mesh = step.mesh;
+  SmallLoop loop;
+  std::size_t size = 0;
+  for (Index e = base.h; size < loop.edges.size();) {
+    loop.edges[size++] = e;
+    if (e == base.before) break;
+    e = e == base.h ? base.after : step.front.next(e);
+  }
+  if (loop.edges[size - 1] != base.before || (size != 4 && size != 6)) return {};
+  const std::span<const Index> edges(loop.edges.data(), size);
+  for (Index e : edges)  // a loop that touches itself is not a ring
+    if (std::count_if(edges.begin(), edges.end(), [&](Index o) { return mesh.origin(o) == mesh.origin(e); }) != 1)
+      return {};
+  loop.size = size;
+  return loop;
+}
+
+bool close_small_loop(Step& step, const SmallLoop& small) {
   kernel::Mesh& mesh = step.mesh;
-  std::array<Index, kMostEdges + 1> room{};
-  const std::span<const Index> loop = loop_of(step, h, room);
-  if (loop.size() != 4 && loop.size() != 6) return false;
-  for (Index e : loop)  // a loop that touches itself is not a ring
-    if (std::count_if(loop.begin(), loop.end(), [&](Index o) { return mesh.origin(o) == mesh.origin(e); }) != 1)
-      return false;
+  const std::span<const Index> loop(small.edges.data(), small.size);
   if (loop.size() == 4) {
     if (corner_quality(mesh, loop, 0, 1, 2, 3) < kLeastSine) return false;
     const Index quad = form_face(step, loop, kMostTriangles4);

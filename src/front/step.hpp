@@ -2,6 +2,7 @@
 /// What every step of the advancing front works on. A step either succeeds or reports that it did not; the driver
 /// runs each in a transaction of the mesh, so a step that gives up half-way has changed nothing.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -80,8 +81,15 @@ Index transition_split(Step& step, Index longer, Index k);
 
 // --- small_loops.cpp --------------------------------------------------------------------------------------
 
-/// Fills the loop of h if it has four or six edges and few triangles inside. Thesis 2.2.3.
-bool close_small_loop(Step& step, Index h);
+/// A front loop that may be filled at once: four or six edges.
+struct SmallLoop {
+  std::array<Index, 6> edges{};
+  std::size_t size = 0;  ///< 0: none
+};
+/// The loop of a base edge if it is small and passes no node twice.
+SmallLoop find_small_loop(const Step& step, const Base& base);
+/// Fills it if it has few triangles inside. Thesis 2.2.3.
+bool close_small_loop(Step& step, const SmallLoop& small);
 
 // --- local_smoothing.cpp ------------------------------------------------------------------------------------
 
