@@ -33,6 +33,12 @@ bool is_good_enough(const Worth& before, const Worth& after) {
   return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean - kMeanLoss;
 }
 
+/// The worst corner gains visibly, and the mean hardly loses.
+bool is_better_shape(const Worth& before, const Worth& after) {
+  constexpr double kGain = 0.05, kMeanLoss = 0.01;
+  return after.worst >= before.worst + kGain && after.mean >= before.mean - kMeanLoss;
+}
+
 class Replacing {
  public:
   Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing)
@@ -46,7 +52,9 @@ class Replacing {
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
     while (!queue_.empty() && most-- > 0) {
       const Index v = queue_.pop();
-      if (is_defect(v)) improve(v);
+      if (is_defect(v) && improve(v, is_good_enough, 1))
+        for (Index u : nodes_)
+          if (mesh_.is_live_vertex(u)) enqueue(u);
     }
   }
 
@@ -58,7 +66,15 @@ class Replacing {
     };
     bool defects = false;
     for (Index v = 0; v < mesh_.vertex_slots() && !defects; ++v) defects = is_defect(v);
-    return defects && size_.is_uniform(kUniform) && cavity_.start_with_all() && replace(is_better);
+    return defects && size_.is_uniform(kUniform) && cavity_.start_with_all() && replace(is_better, 1);
+  }
+
+  /// Valences as good as they are may give a poor quad a better shape.
+  void raise(Index poor) {
+    std::vector<Index> nodes;
+    if (mesh_.is_live_face(poor)) mesh_.for_nodes_of(poor, [&](Index v) { nodes.push_back(v); });
+    for (Index v : nodes)
+      if (is_defect(v) && improve(v, is_better_shape, 0)) return;
   }
 
   std::size_t changes() const { return changes_; }
@@ -70,30 +86,29 @@ class Replacing {
     if (is_defect(v)) queue_.push(v);
   }
 
-  void improve(Index v) {
-    if (mesh_.valence(v) > kMostValence || !cavity_.start(v)) return;
+  /// Grows a cavity from v until a filling is accepted that costs less by `gain`. True if there was one.
+  template <class Accept>
+  bool improve(Index v, const Accept& accept, double gain) {
+    if (mesh_.valence(v) > kMostValence || !cavity_.start(v)) return false;
     for (int step = 0; step < kMostGrowth; ++step) {
-      if (replace(is_good_enough)) {
-        for (Index u : nodes_)
-          if (mesh_.is_live_vertex(u)) enqueue(u);
-        return;
-      }
-      if (!cavity_.grow(kMostQuads)) return;
+      if (replace(accept, gain)) return true;
+      if (!cavity_.grow(kMostQuads)) return false;
     }
+    return false;
   }
 
   template <class Accept>
-  bool replace(const Accept& accept) {
+  bool replace(const Accept& accept, double gain) {
     std::vector<Index> near = cavity_.inner_nodes();
     for (Index h : cavity_.outline()) near.push_back(mesh_.origin(h));
     double cost = 0;
     for (Index v : near) cost += score_.cost(v);
-    if (!may_have_filling(mesh_, score_, cavity_, cost - 1)) return false;
+    if (!may_have_filling(mesh_, score_, cavity_, cost - gain)) return false;
     std::vector<Index> outline(near.end() - std::ptrdiff_t(cavity_.outline().size()), near.end());
     const double size = size_.mean(near);
     int tries = 0;
     for (const FillingChoice& choice :
-         choose_fillings(mesh_, score_, cavity_, cost - 1, size_.quads_wanted(cavity_.faces()))) {
+         choose_fillings(mesh_, score_, cavity_, cost - gain, size_.quads_wanted(cavity_.faces()))) {
       if (!has_chance(cavity_, choice, ++tries)) return false;
       const auto edit = [&](std::vector<Index>& nodes) {
         return fill(mesh_, cavity_.outline(), cavity_.faces(), choice.filling, nodes);
@@ -133,6 +148,18 @@ std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& sm
                                   const std::vector<Index>& nodes) {
   Replacing replacing(mesh, smoothing);
   replacing.run(nodes);
+  return replacing.changes();
+}
+
+std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+  constexpr double kPoor = 0.6;
+  std::vector<Index> poor;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f) && !mesh.is_above(f, kPoor)) poor.push_back(f);
+  if (poor.empty()) return 0;
+  Replacing replacing(mesh, smoothing);
+  for (Index f : poor)
+    if (mesh.is_live_face(f) && !mesh.is_above(f, kPoor)) replacing.raise(f);
   return replacing.changes();
 }
 

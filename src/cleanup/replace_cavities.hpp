@@ -17,4 +17,7 @@ std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothi
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
                                   const std::vector<Index>& nodes);
 
+/// Cavities at quads of poor shape get fillings that score no worse and raise the worst corner.
+std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+
 }  // namespace qmorph::cleanup

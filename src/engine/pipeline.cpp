@@ -5,6 +5,7 @@
 #include "cleanup/clean_up.hpp"
 #include "cleanup/patterns/pattern_cleanup.hpp"
 #include "cleanup/repair.hpp"
+#include "cleanup/replace_cavities.hpp"
 #include "elimination/eliminate.hpp"
 #include "front/morph.hpp"
 #include "kernel/sort_unique.hpp"
@@ -110,6 +111,7 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
   cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing);
+  cleanup::replace_poor_cavities(mesh, options_.smoothing);
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting);

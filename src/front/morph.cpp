@@ -153,8 +153,16 @@ class Morph {
       if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
       front_.for_wedges_at(v, [&](Index in, Index out) {
         note_corner(in, out);
-        if (!moved_.contains(mesh_.origin(in))) note_corner(front_.prev(in), in);
-        if (!moved_.contains(mesh_.target(out))) note_corner(out, front_.next(out));
+        touch(out);
+        if (!moved_.contains(mesh_.target(out))) {
+          const Index next = front_.next(out);
+          note_corner(out, next), touch(next);
+        }
+        touch(in);
+        if (!moved_.contains(mesh_.origin(in))) {
+          const Index prev = front_.prev(in);
+          note_corner(prev, in), touch(prev);
+        }
       });
     }
     for (Index h : edges_) is_aside_.set(h, false), front_.push(h, states_[h], false);
@@ -162,12 +170,13 @@ class Morph {
     forced_ = kNone;
   }
 
+  void touch(Index h) {
+    if (touched_.insert(h / 2)) edges_.push_back(h);  // of an edge's two sides one at most is on the front
+  }
   /// Notes what the node between two front edges is in the states of both.
   void note_corner(Index in, Index out) {
     states_.resize(std::max<std::size_t>(states_.size(), mesh_.half_edge_slots()));
     states_[in].right = states_[out].left = front_.is_corner(in, out);
-    for (Index h : {in, out})
-      if (touched_.insert(h / 2)) edges_.push_back(h);  // of an edge's two sides one at most is on the front
   }
 
   /// Seam, transition seam or transition split at one end of the base edge, between the front edges in and out. Thesis 2.2.4.
