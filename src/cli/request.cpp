@@ -103,7 +103,8 @@ struct Option {
   int values() const { return ours ? ours->values : gmsh->values; }
 };
 
-std::optional<Option> find_option(std::string_view word) {
+/// Nothing if it is neither.
+std::optional<Option> look_up(std::string_view word) {
   const std::size_t dashes = word.substr(0, 2) == "--" ? 2 : word.substr(0, 1) == "-" ? 1 : 0;
   if (dashes == 0 || word == "-") return std::nullopt;
   const std::string_view name = word.substr(dashes);
@@ -113,7 +114,14 @@ std::optional<Option> find_option(std::string_view word) {
   for (const Row& row : kRows)
     if (row.name == name) return Option{&row, nullptr};
   if (gmsh) return Option{nullptr, gmsh};
-  throw UsageError(fmt::format("unknown option '{}'", word));
+  return std::nullopt;
+}
+
+/// Nothing for what is no option, but a file.
+std::optional<Option> find_option(std::string_view word) {
+  auto option = look_up(word);
+  if (!option && word.size() > 1 && word[0] == '-') throw UsageError(fmt::format("unknown option '{}'", word));
+  return option;
 }
 
 double msh_version(const std::string& text) {
@@ -153,6 +161,8 @@ std::vector<std::string> take_values(const std::vector<std::string>& arguments, 
   int wanted = option.values();
   if (wanted < 0) wanted = 2;  // a name and a count
   while (static_cast<int>(values.size()) < wanted && at + 1 < arguments.size()) {
+    if (option.ours && look_up(arguments[at + 1]))
+      throw UsageError(fmt::format("'{}' needs a value before '{}'", word, arguments[at + 1]));
     values.push_back(arguments[++at]);
     int count = 0;
     if (option.values() < 0 && values.size() == 2 && CLI::detail::lexical_cast(values[1], count) && count > 0)

@@ -108,6 +108,9 @@ TEST_CASE("request: an empty value is refused and does not take the next word") 
       {{"-format", "", "a.geo"}, "-format needs a value"},
       {{"--stats", "", "a.geo"}, "--stats needs a value"},
       {{"--surfaces", "", "a.geo"}, "--surfaces needs a value"},
+      // The next option is no value: the file behind it would be merged, and the input written over.
+      {{"a.geo", "--stats", "-o", "b.msh"}, "'--stats' needs a value before '-o'"},
+      {{"a.geo", "-o", "--stats", "s.json"}, "'-o' needs a value before '--stats'"},
   };
   for (const auto& the_case : kCases) {
     CAPTURE(the_case.words);
