@@ -60,9 +60,8 @@ template <std::size_t N>
 void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<Index, N>>& faces,
                  const std::vector<bool>& open) {
   const auto is_open = [&](std::size_t side) { return side < open.size() && open[side]; };
-  const auto with_room = [](std::size_t size) {
-    return size + size / 8 + 64;
-  };  // so that edits do not move all at once
+  // Some room, so that edits do not move all at once.
+  const auto with_room = [](std::size_t size) { return size + size / 8 + 64; };
   vertices_.reserve(with_room(points.size()));
   for (const Vec2& p : points) vertices_.push_back({.point = p});
   faces_.reserve(with_room(faces.size()));
