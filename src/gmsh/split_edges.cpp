@@ -215,7 +215,7 @@ void EdgeSplitter::split_triangles(std::uint32_t e) {
           std::copy(first.begin(), first.end(), block.nodes.begin() + static_cast<std::ptrdiff_t>(n * t));
           block.nodes.insert(block.nodes.end(), second.begin(), second.end());
           block.tags.push_back(++next_element_);
-          pieces = {t, block.tags.size() - 1};
+          pieces.insert(pieces.end(), {t, block.tags.size() - 1});
           break;
         }
       }
