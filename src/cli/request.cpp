@@ -162,7 +162,7 @@ std::vector<std::string> take_values(const std::vector<std::string>& arguments, 
   if (wanted < 0) wanted = 2;  // a name and a count
   while (static_cast<int>(values.size()) < wanted && at + 1 < arguments.size()) {
     double number = 0;  // -3 is an option, but also a number that this option may refuse in its own words
-    if (option.ours && look_up(arguments[at + 1]) && !CLI::detail::lexical_cast(arguments[at + 1], number))
+    if (option.values() == 1 && look_up(arguments[at + 1]) && !CLI::detail::lexical_cast(arguments[at + 1], number))
       throw UsageError(fmt::format("'{}' needs a value before '{}'", word, arguments[at + 1]));
     values.push_back(arguments[++at]);
     int count = 0;

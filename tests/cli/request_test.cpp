@@ -111,6 +111,8 @@ TEST_CASE("request: an empty value is refused and does not take the next word") 
       // The next option is no value: the file behind it would be merged, and the input written over.
       {{"a.geo", "--stats", "-o", "b.msh"}, "'--stats' needs a value before '-o'"},
       {{"a.geo", "-o", "--stats", "s.json"}, "'-o' needs a value before '--stats'"},
+      {{"a.geo", "-string", "-o", "b.msh"}, "'-string' needs a value before '-o'"},
+      {{"a.geo", "-bgm", "-o", "b.msh"}, "'-bgm' needs a value before '-o'"},
   };
   for (const auto& the_case : kCases) {
     CAPTURE(the_case.words);
