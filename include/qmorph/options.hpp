@@ -66,9 +66,9 @@ struct ThesisSmoothing {
   double coincidence = 0.01;
 };
 
-/// How nodes are moved. Measured on the planar meshes of cases/gmsh, shape_energy and thesis: scaled Jacobian min 0.34 and
-/// 0.24, mean 0.969 and 0.966, mean of the 1st percentiles 0.78 and 0.76, quads under 0.3 none and 88, irregular
-/// nodes 2.40 and 2.49 %, seconds of all stages 1.1 and 1.5. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly better.
+/// How nodes are moved. Measured on the planar meshes of cases/gmsh, shape_energy and thesis: scaled Jacobian min 0.35 and
+/// 0.25, mean 0.969 and 0.967, mean of the 1st percentiles 0.79 and 0.76, quads under 0.3 none and 64, irregular
+/// nodes 2.5 and 2.6 %, seconds of all stages 1.1 and 1.9. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly better.
 enum class SmoothingMethod {
   shape_energy,  ///< Newton steps on a shape energy, then on the worst corners
   thesis,        ///< constrained Laplacian, then steepest descent on the worst element. Thesis 2.2.6, 3.7
