@@ -71,9 +71,7 @@ class Replacing {
 
   /// Valences as good as they are may give a poor quad a better shape.
   void raise(Index poor) {
-    std::vector<Index> nodes;
-    if (mesh_.is_live_face(poor)) mesh_.for_nodes_of(poor, [&](Index v) { nodes.push_back(v); });
-    for (Index v : nodes)
+    for (Index v : topology::nodes_of(mesh_, poor))
       if (is_defect(v) && improve(v, is_better_shape, 0)) return;
   }
 

@@ -43,7 +43,7 @@ class Morph {
       }
       if (made() == made_before) break;
       for (Index h : aside_)
-        if (mesh_.is_live_half_edge(h) && front_.contains(h)) enter(h);
+        if (mesh_.is_live_half_edge(h) && front_.contains(h)) enter(h, front_.state(h));
       aside_.clear();
     }
     return counts_;
@@ -58,9 +58,9 @@ class Morph {
     aside_.push_back(h);
     ++counts_.set_aside;
   }
-  void enter(Index h, bool forced = false) {
+  void enter(Index h, State state, bool forced = false) {
     is_aside_.set(h, false);
-    front_.push(h, forced);
+    front_.push(h, state, forced);
   }
 
   void note_sizes() {
@@ -148,6 +148,7 @@ class Morph {
   /// Enters anew the front edges whose states may have changed: those at nodes that moved, and the next to those.
   void reclassify() {
     moved_.clear(), touched_.clear(), edges_.clear();
+    states_.resize(mesh_.half_edge_slots());
     std::erase_if(step_.moved, [&](Index v) { return !moved_.insert(v); });
     for (Index v : step_.moved) {
       if (!mesh_.is_live_vertex(v) || !colours_.is_coloured(v)) continue;
@@ -165,8 +166,8 @@ class Morph {
         }
       });
     }
-    for (Index h : edges_) is_aside_.set(h, false), front_.push(h, states_[h], false);
-    if (forced_ != kNone && front_.contains(forced_)) enter(forced_, true);
+    for (Index h : edges_) enter(h, states_[h]);
+    if (forced_ != kNone && front_.contains(forced_)) enter(forced_, {}, true);
     forced_ = kNone;
   }
 
@@ -174,10 +175,7 @@ class Morph {
     if (touched_.insert(h / 2)) edges_.push_back(h);  // of an edge's two sides one at most is on the front
   }
   /// Notes what the node between two front edges is in the states of both.
-  void note_corner(Index in, Index out) {
-    states_.resize(std::max<std::size_t>(states_.size(), mesh_.half_edge_slots()));
-    states_[in].right = states_[out].left = front_.is_corner(in, out);
-  }
+  void note_corner(Index in, Index out) { states_[in].right = states_[out].left = front_.is_corner(in, out); }
 
   /// Seam, transition seam or transition split at one end of the base edge, between the front edges in and out. Thesis 2.2.4.
   bool special_case(const Base& base, Index in, Index out) {
