@@ -1,5 +1,5 @@
 #pragma once
-/// Cleanup by score: the local changes of operations.hpp. Design section 5.
+/// Cleanup by score: the local changes of operations.hpp.
 
 #include <vector>
 

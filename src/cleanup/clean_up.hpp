@@ -1,5 +1,5 @@
 #pragma once
-/// Topological cleanup: fewer irregular nodes, better corners. Design section 5.
+/// Topological cleanup: fewer irregular nodes, better corners.
 
 #include <vector>
 

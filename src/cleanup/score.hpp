@@ -12,7 +12,7 @@ class Score {
   explicit Score(const kernel::Mesh& mesh) : mesh_(mesh) {}
 
   /// Edges that should meet at v: 4 inside, on the boundary one more than the quads that share its angle evenly,
-  /// round(angle / 90 degrees) but at least 1. Design section 5.
+  /// round(angle / 90 degrees) but at least 1.
   int ideal(Index v) const { return mesh_.is_boundary(v) ? boundary_ideal(v) : 4; }
   /// At a node of the boundary: the angle of the inside, in (0, 2 pi].
   double inside_angle(Index v) const;

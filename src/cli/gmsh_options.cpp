@@ -20,7 +20,7 @@ using Row = GmshOptionRow;
 
 constexpr std::string_view kElsewhere = "do that with gmsh, before or after";
 
-/// Gmsh's reference manual, appendix on the command line, and notes 3.2.
+/// Gmsh's reference manual, appendix on the command line.
 constexpr std::array kRows = {
     Row{"clmin", 1, kPassed, "positive"},
     Row{"clmax", 1, kPassed, "positive"},
@@ -124,7 +124,7 @@ constexpr std::array kRows = {
     Row{"help_options", 0, kRefused, "gmsh -help_options says it"},
 };
 
-/// Gmsh's names (notes 3.2). Gmsh prints a complaint about others and goes on, which nobody would see.
+/// Gmsh's names. Gmsh prints a complaint about others and goes on, which nobody would see.
 constexpr std::array<std::string_view, 21> kAlgorithms = {
     "auto",    "meshadapt", "iso",     "del2d", "tri",     "delaunay",   "front2d",
     "frontal", "bamg",      "delquad", "pack",  "quadqs",  "frontopt2d", "initial2d",

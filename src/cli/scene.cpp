@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "gmsh/groups.hpp"
-#include "gmsh/model_mesh.hpp"
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/read/groups.hpp"
 
 namespace qmorph::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "cli/scene.hpp"
-#include "gmsh/msh_file.hpp"
+#include "gmsh/read/msh_file.hpp"
 #include "report/page.hpp"
 #include "report/picture.hpp"
 #include "report/views.hpp"

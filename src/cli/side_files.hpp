@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/request.hpp"
-#include "gmsh/open.hpp"
-#include "gmsh/staged_file.hpp"
+#include "gmsh/read/open.hpp"
+#include "gmsh/write/staged_file.hpp"
 #include "qmorph/gmsh.hpp"
 #include "report/scene.hpp"
 #include "report/stats.hpp"

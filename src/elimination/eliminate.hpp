@@ -1,5 +1,5 @@
 #pragma once
-/// Triangle elimination: what makes invariant I5 a guarantee. Design section 4, "Triangle elimination".
+/// Triangle elimination: what makes the parity of triangles (I5 in src/README.md) a guarantee.
 
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"

@@ -121,7 +121,7 @@ Vec2 bisector(const Vec2& a, const Vec2& b) {
 }
 
 /// Blacker and Stephenson's move for a front node between two quads: isoparametric, corrected for length and
-/// for angle (mean of the two). Thesis 3.5.5 and design section 4.
+/// for angle (mean of the two). Thesis 3.5.5; [Blacker91].
 Vec2 row_position(const Step& step, Index v, const Surrounding& s) {
   const Mesh& mesh = step.mesh;
   const Vec2 isoparametric = isoparametric_position(s);

@@ -34,8 +34,7 @@ struct QualityAccumulator::ElementNormals {
 
 namespace {
 
-/// A surface is flat if this share of its elements' area vectors is along the mean normal; judge.py has the same
-/// number.
+/// A surface is flat if this share of its elements' area vectors is along the mean normal.
 constexpr double kFlatNormals = 1 - 1e-9;
 
 template <std::size_t N>

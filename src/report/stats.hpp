@@ -19,7 +19,7 @@ struct RunFacts {
   double open_seconds = 0, mesh_seconds = 0, write_seconds = 0, total_seconds = 0;
 };
 
-/// The figures of design section 7 as JSON: for each surface and in total, at the end and after each stage. Keys come
+/// The figures of qmorph/quality.hpp as JSON: for each surface and in total, at the end and after each stage. Keys come
 /// always in the same order; numbers are the shortest that read back as the same.
 std::string stats_json(const ModelReport& model, const RunFacts& facts);
 

@@ -16,7 +16,7 @@ struct Change {
   bool inverts = false;      ///< an element that was valid is not valid any more
 };
 
-/// The rule of acceptance, design section 6: refused if all elements get worse, one is inverted, more get much worse
+/// The rule of acceptance [Canann98]: refused if all elements get worse, one is inverted, more get much worse
 /// than much better, the mean falls by more than MYMIN or an angle is over THETAMAX; then accepted if all get
 /// better, some much better and none much worse, or not more much worse than much better.
 bool is_acceptable(const Change& change, const ThesisSmoothing& options);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/request.hpp"
-#include "gmsh/compat.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/error.hpp"
 

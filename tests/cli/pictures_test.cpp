@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "gmsh/session.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph;

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "gmsh/compat.hpp"
+#include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;

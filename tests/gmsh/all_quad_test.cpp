@@ -9,9 +9,9 @@
 #include <set>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/periodic.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/convert/periodic.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/gmsh.hpp"
 

@@ -1,6 +1,6 @@
 /// The second opinion: each kind of spoilt result is found.
 
-#include "gmsh/check.hpp"
+#include "gmsh/convert/check.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "gmsh/orientation.hpp"
+#include "gmsh/model/orientation.hpp"
 
 using namespace qmorph;
 

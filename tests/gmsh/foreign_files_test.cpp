@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "gmsh/patches.hpp"
+#include "gmsh/model/patches.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;

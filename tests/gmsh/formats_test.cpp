@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gmsh/compat.hpp"
+#include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;

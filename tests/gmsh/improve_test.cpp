@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gmsh/compat.hpp"
+#include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/gmsh.hpp"
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph;

@@ -1,15 +1,15 @@
 /// Several files make one model.
 
-#include "gmsh/merge.hpp"
+#include "gmsh/read/merge.hpp"
 
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/periodic.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/convert/periodic.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph;

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "gmsh/compat.hpp"
+#include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;

@@ -1,6 +1,6 @@
 /// Surfaces that are images of one another stay so.
 
-#include "gmsh/periodic.hpp"
+#include "gmsh/convert/periodic.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph;

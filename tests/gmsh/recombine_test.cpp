@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/model_mesh.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/gmsh.hpp"
 

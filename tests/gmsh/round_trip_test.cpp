@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "cli/run.hpp"
-#include "gmsh/compat.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 
 namespace qmorph::test {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "gmsh/model_mesh.hpp"
-#include "gmsh/periodic.hpp"
+#include "gmsh/convert/periodic.hpp"
+#include "gmsh/model/model_mesh.hpp"
 
 namespace qmorph::test {
 

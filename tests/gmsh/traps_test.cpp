@@ -1,4 +1,4 @@
-/// The eleven traps of reference/gmsh-api-notes.md, one test each; the numbers are those of its section 0.
+/// Traps of the Gmsh API that this code has to step around, one test each.
 
 #include <doctest/doctest.h>
 
@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/model_mesh.hpp"
-#include "gmsh/open.hpp"
-#include "gmsh/patches.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/model/patches.hpp"
+#include "gmsh/read/open.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/gmsh.hpp"
 

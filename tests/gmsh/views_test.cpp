@@ -1,6 +1,6 @@
 /// Data on nodes and elements of a file goes to the quads.
 
-#include "gmsh/views.hpp"
+#include "gmsh/views/views.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,8 +9,8 @@
 #include <map>
 #include <string>
 
-#include "gmsh/compat.hpp"
-#include "gmsh/session.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph;

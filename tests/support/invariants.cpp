@@ -18,7 +18,7 @@ using EdgeSet = std::set<std::pair<Index, Index>>;
 /// A corner counts as convex from this sine on; a straight corner is about 1e-17.
 constexpr double kStraight = 1e-12;
 constexpr double kSameArea = 1e-9;
-constexpr double kSamePlace = 1e-9;  // of the diagonal, as judge.py has it
+constexpr double kSamePlace = 1e-9;  // of the diagonal
 
 double diagonal(const std::vector<Vector3d>& points) {
   Vector3d low = points[0], high = low;

@@ -1,5 +1,5 @@
 #pragma once
-/// The invariants of design section 2 for one surface, checked without a line of the engine.
+/// The invariants I1 to I6 of src/README.md for one surface, checked without a line of the engine.
 
 #include <string>
 #include <vector>

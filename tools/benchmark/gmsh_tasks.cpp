@@ -127,7 +127,7 @@ void build_model(const Triangulation& mesh) {
       if (surface != qmorph::kNone) bounding[surface].push_back(tag);
   }
 
-  // All nodes before the first element: Gmsh looks all nodes up anew after each call that adds some (notes 7).
+  // All nodes before the first element: Gmsh looks all nodes up anew after each call that adds some.
   for (const auto& [node, point] : points) add_entity_nodes(mesh, 0, point, {node});
   for (int curve = 1; curve <= int(curves.size()); ++curve) add_entity_nodes(mesh, 1, curve, nodes_of_curve[curve]);
   std::vector<bool> placed(mesh.points.size(), false);

@@ -1,0 +1,135 @@
+#include "gmsh/convert/periodic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "gmsh/convert/check.hpp"
+#include "kernel/sort_unique.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// From rows of the master's nodes to rows of the slave's.
+std::map<Index, Index> row_map(const PeriodicLink& link, const ModelMesh& mesh) {
+  std::map<Index, Index> rows;
+  for (const auto& [slave, master] : link.nodes) rows[mesh.rows.find(master)] = mesh.rows.find(slave);
+  return rows;
+}
+
+std::map<Index, Index> local_numbers(const SurfacePart& part) {
+  std::map<Index, Index> local;
+  for (Index i = 0; i < part.rows.size(); ++i) local[part.rows[i]] = i;
+  return local;
+}
+
+[[noreturn]] void refuse_image(const PeriodicLink& link) {
+  throw SurfaceError(
+      fmt::format("it is periodic with surface {}, and its mesh is not the image of that one's", link.master));
+}
+
+/// Local numbers of the slave's part for those of the master's.
+std::vector<Index> image_of_part(const PeriodicLink& link, const std::map<Index, Index>& rows,
+                                 const SurfacePart& master, const SurfacePart& slave) {
+  const std::map<Index, Index> local = local_numbers(slave);
+  std::vector<Index> image;
+  for (Index row : master.rows) {
+    const auto slave_row = rows.find(row);
+    if (slave_row == rows.end()) refuse_image(link);
+    const auto found = local.find(slave_row->second);
+    if (found == local.end()) refuse_image(link);
+    image.push_back(found->second);
+  }
+  if (slave.rows.size() != master.rows.size() || slave.patch.triangles.size() != master.patch.triangles.size() ||
+      slave.patch.quads.size() != master.patch.quads.size())
+    refuse_image(link);
+  return image;
+}
+
+}  // namespace
+
+std::size_t PeriodicFamily::master_of(std::size_t member) const {
+  return static_cast<std::size_t>(std::find(members.begin(), members.end(), link[member]->master) - members.begin());
+}
+
+std::vector<PeriodicFamily> find_families(const std::vector<PeriodicLink>& links) {
+  std::map<int, const PeriodicLink*> link_of;
+  std::set<int> masters;
+  for (const PeriodicLink& link : links) {
+    link_of[link.slave] = &link;
+    masters.insert(link.master);
+  }
+  std::vector<PeriodicFamily> families;
+  for (int root : masters) {
+    if (link_of.count(root)) continue;
+    PeriodicFamily family{{root}, {nullptr}};
+    for (std::size_t i = 0; i < family.members.size(); ++i)
+      for (const PeriodicLink& link : links)
+        if (link.master == family.members[i]) {
+          family.members.push_back(link.slave);
+          family.link.push_back(&link);
+        }
+    families.push_back(std::move(family));
+  }
+  return families;
+}
+
+void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& master, SurfaceMesh& slave) {
+  if (link.transformation.size() != 16)
+    throw SurfaceError(fmt::format("it is periodic with surface {}, and nothing says how", link.master));
+  const std::map<Index, Index> rows = row_map(link, mesh);
+  if (slave.parts.size() != master.parts.size()) refuse_image(link);
+  std::vector<SurfacePart> ordered;
+  for (SurfacePart& part : master.parts) {
+    const auto first = rows.find(part.rows.front());
+    const auto found = std::find_if(slave.parts.begin(), slave.parts.end(), [&](const SurfacePart& candidate) {
+      return first != rows.end() && std::count(candidate.rows.begin(), candidate.rows.end(), first->second);
+    });
+    if (found == slave.parts.end()) refuse_image(link);
+    if (!found->patch.quads.empty() && !found->quad_tags.empty())
+      throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master));
+    const std::vector<Index> image = image_of_part(link, rows, part, *found);
+    std::vector<Index> back(image.size());
+    for (Index i = 0; i < image.size(); ++i) back[image[i]] = i;
+    for (Index i : found->patch.fixed) part.patch.fixed.push_back(back[i]);
+    for (const auto& [a, b] : found->patch.constraints)
+      part.patch.constraints.push_back({std::min(back[a], back[b]), std::max(back[a], back[b])});
+    sort_unique(part.patch.fixed);
+    sort_unique(part.patch.constraints);
+    ordered.push_back(*found);
+  }
+  slave.parts = std::move(ordered);
+}
+
+std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurface& master, const SurfaceMesh& slave,
+                                   const ModelMesh& mesh) {
+  const std::map<Index, Index> rows = row_map(link, mesh);
+  std::vector<QuadMesh> results;
+  for (std::size_t p = 0; p < master.results.size(); ++p) {
+    const SurfacePart& from = master.surface.parts[p];
+    const Patch& patch = slave.parts[p].patch;
+    const std::vector<Index> image = image_of_part(link, rows, from, slave.parts[p]);
+    QuadMesh result = master.results[p];
+    for (Index i = 0; i < result.points.size(); ++i) {
+      const Index source = result.source[i];
+      const bool at_rest = source != kNone && result.points[i] == from.patch.points[source];
+      if (source != kNone) result.source[i] = image[source];
+      result.points[i] = at_rest ? patch.points[image[source]] : transformed(link.transformation, result.points[i]);
+    }
+    Patch shape;
+    shape.points = result.points;
+    shape.triangles = result.triangles;
+    shape.quads = result.quads;
+    if (patch_normal(shape).dot(patch_normal(patch)) < 0) {
+      for (auto& triangle : result.triangles) std::reverse(triangle.begin(), triangle.end());
+      for (auto& quad : result.quads) std::reverse(quad.begin(), quad.end());
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+}  // namespace qmorph::adapter

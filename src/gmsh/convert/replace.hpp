@@ -1,0 +1,28 @@
+#pragma once
+/// Puts converted surfaces back into the current Gmsh model.
+
+#include <vector>
+
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/model/patches.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph::adapter {
+
+/// A surface and, for each of its parts, what the engine made of it.
+struct ConvertedSurface {
+  SurfaceMesh surface;
+  std::vector<QuadMesh> results;
+};
+
+/// Node tags of the results of one surface's parts.
+using PartTags = std::vector<std::vector<std::size_t>>;
+
+/// Replaces the elements and the inner nodes of the surfaces. Kept nodes keep their tags and new ones get tags above
+/// all others; the tags of the elements that go are used again, so that the numbering has few gaps.
+/// \pre nodes are classified (`is_misclassified` is false), `mesh` is the model's mesh as it is now
+/// \return node tags of each surface, for each part, in the order of the result's points
+/// \throws InputError if Gmsh refuses a step. The model must not be written then.
+std::vector<PartTags> replace_surfaces(const ModelMesh& mesh, const std::vector<ConvertedSurface>& surfaces);
+
+}  // namespace qmorph::adapter

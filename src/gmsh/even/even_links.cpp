@@ -1,0 +1,250 @@
+#include "gmsh/even/even_links.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "gmsh/model/patches.hpp"
+#include "gmsh/model/periodic_links.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// A side of an element of a surface.
+struct Side {
+  Index low, high;
+  std::uint32_t surface;
+  Index triangle;  ///< numbered through all surfaces that are converted; kNone for any other element
+  int order;       ///< of its element
+};
+
+std::vector<Side> sorted_sides(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces, Index& triangles) {
+  std::vector<Side> sides;
+  triangles = 0;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    if (mesh.entities[e].dim != 2) continue;
+    const bool converted = std::binary_search(surfaces.begin(), surfaces.end(), e);
+    for (const ElementBlock& block : mesh.entities[e].blocks) {
+      const std::size_t corners = block.corners;
+      const bool counts = converted && corners == 3;
+      for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element) {
+        for (std::size_t k = 0; k < corners; ++k) {
+          const Index a = mesh.rows.find(block.nodes[i + k]), b = mesh.rows.find(block.nodes[i + (k + 1) % corners]);
+          if (a != kNone && b != kNone)
+            sides.push_back({std::min(a, b), std::max(a, b), e, counts ? triangles : kNone, block.order});
+        }
+        triangles += counts;
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+    return std::tie(s.low, s.high, s.surface, s.triangle) < std::tie(t.low, t.high, t.surface, t.triangle);
+  });
+  return sides;
+}
+
+/// Calls `visit(first, last)` for the sides of each edge.
+template <class Visit>
+void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
+  for (std::size_t first = 0, last; first < sides.size(); first = last) {
+    last = first + 1;
+    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
+    visit(first, last);
+  }
+}
+
+using Edge = std::pair<Index, Index>;  ///< rows, the smaller one first
+
+struct Line {
+  Edge edge;
+  int curve, order;
+  bool operator<(const Line& other) const { return std::tie(edge, curve) < std::tie(other.edge, other.curve); }
+};
+
+/// The line elements of all curves, by their ends.
+std::vector<Line> sorted_lines(const ModelMesh& mesh) {
+  std::vector<Line> lines;
+  for (const EntityMesh& entity : mesh.entities) {
+    if (entity.dim != 1) continue;
+    for (const ElementBlock& block : entity.blocks)
+      for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element) {
+        const Index a = mesh.rows.find(block.nodes[i]), b = mesh.rows.find(block.nodes[i + 1]);
+        lines.push_back({std::minmax(a, b), entity.tag, block.order});
+      }
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+/// An edge on the boundary of regions that may get a node.
+struct Candidate {
+  Edge edge;
+  std::vector<Index> regions;  ///< whose parity changes; one may be there twice
+  double length;
+  std::set<int> curves;  ///< that it is on
+};
+
+/// Edges that only get a node together: those that are images of one another, on periodic curves.
+class Images {
+ public:
+  explicit Images(const std::vector<Candidate>& candidates) : candidates_(candidates), parent_(candidates.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    lonely_.assign(candidates.size(), false);
+  }
+  void join(const ModelMesh& mesh, const PeriodicLink& link);
+  /// Candidates that go together, without those that miss an image.
+  std::vector<std::vector<Index>> groups();
+
+ private:
+  Index root(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  Index find(const Edge& edge) const {
+    const auto at = std::lower_bound(candidates_.begin(), candidates_.end(), edge,
+                                     [](const Candidate& candidate, const Edge& e) { return candidate.edge < e; });
+    return at == candidates_.end() || at->edge != edge ? kNone : Index(at - candidates_.begin());
+  }
+
+  const std::vector<Candidate>& candidates_;
+  std::vector<Index> parent_;
+  std::vector<bool> lonely_;
+};
+
+void Images::join(const ModelMesh& mesh, const PeriodicLink& link) {
+  std::map<Index, Index> master_of, slave_of;
+  for (const auto& [slave, master] : link.nodes) {
+    const Index s = mesh.rows.find(slave), m = mesh.rows.find(master);
+    master_of[s] = m;
+    slave_of[m] = s;
+  }
+  const auto look = [&](int curve, const std::map<Index, Index>& image) {
+    for (Index i = 0; i < candidates_.size(); ++i) {
+      if (!candidates_[i].curves.count(curve)) continue;
+      const auto a = image.find(candidates_[i].edge.first), b = image.find(candidates_[i].edge.second);
+      const Index other = a == image.end() || b == image.end() ? kNone : find(std::minmax(a->second, b->second));
+      if (other == kNone)
+        lonely_[i] = true;
+      else
+        parent_[std::max(root(i), root(other))] = std::min(root(i), root(other));
+    }
+  };
+  look(link.slave, master_of);
+  look(link.master, slave_of);
+}
+
+std::vector<std::vector<Index>> Images::groups() {
+  std::map<Index, std::vector<Index>> members;
+  std::set<Index> lonely;
+  for (Index i = 0; i < candidates_.size(); ++i) {
+    members[root(i)].push_back(i);
+    if (lonely_[i]) lonely.insert(root(i));
+  }
+  std::vector<std::vector<Index>> groups;
+  for (auto& [first, group] : members)
+    if (!lonely.count(first)) groups.push_back(std::move(group));
+  return groups;
+}
+
+/// Leaves out what changes the parity of more than two regions.
+void make_link(const std::vector<Candidate>& candidates, const std::vector<Index>& group, RegionGraph& graph) {
+  std::set<Index> changed;
+  parity::Link link{parity::kOutside, parity::kOutside, candidates[group.front()].length, int(group.size())};
+  std::vector<Edge> edges;
+  for (Index i : group) {
+    for (Index region : candidates[i].regions)
+      if (!changed.insert(region).second) changed.erase(region);
+    link.length = std::min(link.length, candidates[i].length);
+    edges.push_back(candidates[i].edge);
+  }
+  if (changed.size() > 2) return;
+  if (!changed.empty()) link.a = *changed.begin();
+  if (changed.size() == 2) link.b = *changed.rbegin();
+  graph.links.push_back(link);
+  graph.edges.push_back(std::move(edges));
+}
+
+/// Regions of triangles that nothing separates: the smallest triangle of each is its root.
+class Regions {
+ public:
+  explicit Regions(Index triangles) : parent_(triangles) { std::iota(parent_.begin(), parent_.end(), 0); }
+  Index root(Index t) {
+    while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
+    return t;
+  }
+  void unite(Index t, Index u) {
+    t = root(t), u = root(u);
+    parent_[std::max(t, u)] = std::min(t, u);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+}  // namespace
+
+std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b) {
+  for (Index row : {row_a, row_b})
+    if (mesh.entities[mesh.owner[row]].dim == 1) return mesh.owner[row];
+  return kNobody;
+}
+
+RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
+                              const std::set<int>& keep_curves) {
+  Index triangles = 0;
+  const std::vector<Side> sides = sorted_sides(mesh, surfaces, triangles);
+  const FixedEdges fixed(mesh, use);
+  const auto is_inside = [&](std::size_t first, std::size_t last) {
+    const Side &s = sides[first], &t = sides[last - 1];
+    return last - first == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
+           !fixed.contains(s.low, s.high);
+  };
+  Regions regions(triangles);
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    if (is_inside(first, last)) regions.unite(sides[first].triangle, sides[first + 1].triangle);
+  });
+
+  RegionGraph graph;
+  std::vector<Index> number(triangles, kNone);
+  const auto region_of = [&](const Side& side) {
+    Index& region = number[regions.root(side.triangle)];
+    if (region == kNone) {
+      region = Index(graph.odd.size());
+      graph.odd.push_back(false);
+      graph.surface.push_back(side.surface);
+    }
+    return region;
+  };
+  const std::vector<Line> lines = sorted_lines(mesh);
+  std::vector<Candidate> candidates;
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    if (is_inside(first, last)) return;
+    bool may_split = last - first <= 2;
+    const Index a = sides[first].low, b = sides[first].high;
+    Candidate candidate{{a, b}, {}, (mesh.points[a] - mesh.points[b]).norm(), {}};
+    for (std::size_t i = first; i < last; ++i) {
+      may_split = may_split && sides[i].triangle != kNone && sides[i].order == sides[first].order;
+      if (sides[i].triangle == kNone) continue;
+      candidate.regions.push_back(region_of(sides[i]));
+      graph.odd[candidate.regions.back()] = !graph.odd[candidate.regions.back()];
+    }
+    if (use.volume[a] && use.volume[b]) may_split = false;
+    const auto [from, to] = std::equal_range(lines.begin(), lines.end(), Line{{a, b}, 0, 0},
+                                             [](const Line& s, const Line& t) { return s.edge < t.edge; });
+    for (auto line = from; line != to; ++line) {
+      candidate.curves.insert(line->curve);
+      may_split = may_split && line->order == sides[first].order;
+    }
+    if (const std::uint32_t curve = curve_under(mesh, a, b); curve != kNobody)
+      candidate.curves.insert(mesh.entities[curve].tag);
+    for (int curve : candidate.curves) may_split = may_split && !keep_curves.count(curve);
+    if (may_split) candidates.push_back(std::move(candidate));
+  });
+  Images images(candidates);
+  for (const PeriodicLink& link : read_periodic_links(mesh, 1)) images.join(mesh, link);
+  for (const std::vector<Index>& group : images.groups()) make_link(candidates, group, graph);
+  return graph;
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,27 @@
+#pragma once
+/// Connected parts of a surface and the one orientation that each of them has.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "gmsh/model/sides.hpp"
+
+namespace qmorph::adapter {
+
+/// What the elements of a surface, seen as a graph over edges, are.
+struct Orientation {
+  std::vector<Index> part;  ///< of each element; parts are numbered in the order of their first element
+  std::vector<bool> flip;   ///< elements to turn, always the smaller share of their part
+  Index parts = 0;
+  std::size_t flipped = 0;
+  /// Set if something is wrong, and then nothing else counts: an edge with more than two elements, or one where no
+  /// turning helps (a Moebius strip).
+  const char* defect = nullptr;
+  Side where;
+};
+
+/// \param elements how many elements the sides belong to
+Orientation orient(std::size_t elements, const std::vector<Side>& sides);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,302 @@
+#include "gmsh/model/patches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "gmsh/model/high_order.hpp"
+#include "gmsh/model/orientation.hpp"
+#include "kernel/sort_unique.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// Areas of areas are still numbers below this.
+constexpr double kLargestCoordinate = 1e75;
+
+std::uint64_t edge_key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
+/// The elements of one surface with their corners as rows of the model's nodes.
+struct Elements {
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Index, 4>> quads;
+  std::vector<std::size_t> quad_tags;
+};
+
+template <std::size_t N>
+std::vector<std::array<Index, N>> read_corners(const ModelMesh& mesh, const ElementBlock& block) {
+  std::vector<std::array<Index, N>> elements(block.tags.size());
+  for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+    const std::size_t e = i / block.nodes_per_element, k = i % block.nodes_per_element;
+    const Index row = mesh.rows.find(block.nodes[i]);
+    if (row == kNone)
+      throw SurfaceError(
+          fmt::format("element {} uses node {}, which the mesh does not have", block.tags[e], block.nodes[i]));
+    if (!mesh.points[row].allFinite())
+      throw SurfaceError(
+          fmt::format("{} is nowhere: its coordinates are not finite numbers", describe_node(mesh, row)));
+    if (mesh.points[row].cwiseAbs().maxCoeff() > kLargestCoordinate)
+      throw SurfaceError(fmt::format("{} is too far away to compute with; scale the mesh (Mesh.ScalingFactor)",
+                                     describe_node(mesh, row)));
+    if (k < N) elements[e][k] = row;
+  }
+  return elements;
+}
+
+template <std::size_t N>
+void refuse_repeated_corners(const ModelMesh& mesh, const ElementBlock& block,
+                             const std::vector<std::array<Index, N>>& elements) {
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (std::size_t k = 0; k < N; ++k)
+      for (std::size_t j = 0; j < k; ++j)
+        if (elements[e][k] == elements[e][j])
+          throw SurfaceError(fmt::format("element {} uses {} twice; remove the element", block.tags[e],
+                                         describe_node(mesh, elements[e][k])));
+}
+
+Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
+  order_of(entity);  // refuses what is neither triangle nor quad
+  Elements elements;
+  if (const ElementBlock* block = entity.polygons(3)) {
+    elements.triangles = read_corners<3>(mesh, *block);
+    refuse_repeated_corners(mesh, *block, elements.triangles);
+  }
+  if (const ElementBlock* block = entity.polygons(4)) {
+    elements.quads = read_corners<4>(mesh, *block);
+    refuse_repeated_corners(mesh, *block, elements.quads);
+    elements.quad_tags = block->tags;
+  }
+  return elements;
+}
+
+/// A volume's elements use whole triangles of the surface: quads would not fit them.
+void refuse_volume(const ModelMesh& mesh, const NodeUse& use, const Elements& elements) {
+  for (const auto& triangle : elements.triangles)
+    if (use.volume[triangle[0]] && use.volume[triangle[1]] && use.volume[triangle[2]])
+      throw SurfaceError(fmt::format(
+          "it bounds a volume that is meshed already (at {}), whose tetrahedra fit triangles only; --drop-volumes "
+          "removes them, and with -3 the volumes are meshed again on the quads",
+          describe_node(mesh, triangle[0])));
+}
+
+/// Numbers rows 0, 1, 2, ... in the order in which they come.
+class LocalNumbers {
+ public:
+  explicit LocalNumbers(std::vector<Index>& scratch) : local_(scratch) {}
+  ~LocalNumbers() {
+    for (Index row : rows_) local_[row] = kNone;
+  }
+  LocalNumbers(const LocalNumbers&) = delete;
+  LocalNumbers& operator=(const LocalNumbers&) = delete;
+
+  template <std::size_t N>
+  std::array<Index, N> operator()(std::array<Index, N> element) {
+    for (Index& row : element) {
+      if (local_[row] == kNone) {
+        local_[row] = static_cast<Index>(rows_.size());
+        rows_.push_back(row);
+      }
+      row = local_[row];
+    }
+    return element;
+  }
+  const std::vector<Index>& rows() const { return rows_; }
+
+ private:
+  std::vector<Index>& local_;
+  std::vector<Index> rows_;
+};
+
+Orientation orient_surface(const ModelMesh& mesh, const Elements& elements, std::vector<Index>& local) {
+  LocalNumbers number(local);
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Index, 4>> quads;
+  triangles.reserve(elements.triangles.size());
+  quads.reserve(elements.quads.size());
+  for (const auto& triangle : elements.triangles) triangles.push_back(number(triangle));
+  for (const auto& quad : elements.quads) quads.push_back(number(quad));
+  const std::vector<Side> sides = sorted_sides(number.rows().size(), triangles, quads);
+  Orientation orientation = orient(triangles.size() + quads.size(), sides);
+  if (orientation.defect)
+    throw SurfaceError(fmt::format("{}, from {} to {}", orientation.defect,
+                                   describe_node(mesh, number.rows()[orientation.where.low]),
+                                   describe_node(mesh, number.rows()[orientation.where.high])));
+  return orientation;
+}
+
+/// Nodes where two parts touch. Each part would think that it may move them.
+std::vector<Index> nodes_of_several_parts(const Elements& elements, const Orientation& orientation,
+                                          std::vector<Index>& local) {
+  if (orientation.parts < 2) return {};
+  std::vector<Index> touched, several;
+  const auto visit = [&](Index row, Index part) {
+    if (local[row] == kNone) {
+      local[row] = part;
+      touched.push_back(row);
+    } else if (local[row] != part) {
+      several.push_back(row);
+    }
+  };
+  Index e = 0;
+  for (const auto& triangle : elements.triangles) {
+    for (Index row : triangle) visit(row, orientation.part[e]);
+    ++e;
+  }
+  for (const auto& quad : elements.quads) {
+    for (Index row : quad) visit(row, orientation.part[e]);
+    ++e;
+  }
+  for (Index row : touched) local[row] = kNone;
+  std::sort(several.begin(), several.end());
+  return several;
+}
+
+/// Element numbers of each part, in order.
+std::vector<std::vector<Index>> members_of_parts(const Orientation& orientation) {
+  std::vector<std::vector<Index>> members(orientation.parts);
+  for (Index e = 0; e < orientation.part.size(); ++e) members[orientation.part[e]].push_back(e);
+  return members;
+}
+
+template <std::size_t N>
+std::array<Index, N> turned(std::array<Index, N> element, bool flip) {
+  if (flip) std::reverse(element.begin(), element.end());
+  return element;
+}
+
+SurfacePart make_part(const ModelMesh& mesh, const Elements& elements, const Orientation& orientation,
+                      const std::vector<Index>& members, std::vector<Index>& local) {
+  SurfacePart part;
+  LocalNumbers number(local);
+  for (Index e : members) {
+    if (e < elements.triangles.size()) {
+      part.patch.triangles.push_back(number(turned(elements.triangles[e], orientation.flip[e])));
+    } else {
+      const std::size_t q = e - elements.triangles.size();
+      part.patch.quads.push_back(number(turned(elements.quads[q], orientation.flip[e])));
+      part.quad_tags.push_back(elements.quad_tags[q]);
+    }
+  }
+  part.rows = number.rows();
+  part.patch.points.reserve(part.rows.size());
+  for (Index row : part.rows) part.patch.points.push_back(mesh.points[row]);
+  return part;
+}
+
+template <std::size_t N>
+void add_constraints(const std::vector<std::array<Index, N>>& elements, const FixedEdges& fixed_edges,
+                     SurfacePart& part) {
+  for (const auto& element : elements)
+    for (std::size_t k = 0; k < N; ++k) {
+      const Index a = element[k], b = element[(k + 1) % N];
+      if (fixed_edges.contains(part.rows[a], part.rows[b]))
+        part.patch.constraints.push_back({std::min(a, b), std::max(a, b)});
+    }
+}
+
+void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
+                     const std::vector<Index>& touching, SurfacePart& part) {
+  add_constraints(part.patch.triangles, fixed_edges, part);
+  add_constraints(part.patch.quads, fixed_edges, part);
+  auto& constraints = part.patch.constraints;
+  sort_unique(constraints);
+
+  for (Index i = 0; i < part.rows.size(); ++i) {
+    const Index row = part.rows[i];
+    if (mesh.owner[row] != entity || use.pinned[row] || use.several[row] || use.volume[row] ||
+        std::binary_search(touching.begin(), touching.end(), row))
+      part.patch.fixed.push_back(i);
+  }
+}
+
+}  // namespace
+
+FixedEdges::FixedEdges(const ModelMesh& mesh, const NodeUse& use) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> shared;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    const EntityMesh& entity = mesh.entities[e];
+    if (entity.dim != 1 && entity.dim != 2) continue;
+    for (const ElementBlock& block : entity.blocks) {
+      const std::size_t corners = block.corners;
+      for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element)
+        for (std::size_t k = 0; k < (entity.dim == 1 ? 1 : corners); ++k) {
+          const Index a = mesh.rows.find(block.nodes[i + k]);
+          const Index b = mesh.rows.find(block.nodes[i + (k + 1) % corners]);
+          if (a == kNone || b == kNone) continue;
+          if (entity.dim == 1)
+            keys_.push_back(edge_key(a, b));
+          else if (use.several[a] && use.several[b])
+            shared.emplace_back(edge_key(a, b), e);
+        }
+    }
+  }
+  std::sort(shared.begin(), shared.end());
+  for (std::size_t i = 1; i < shared.size(); ++i)
+    if (shared[i].first == shared[i - 1].first && shared[i].second != shared[i - 1].second)
+      keys_.push_back(shared[i].first);
+  sort_unique(keys_);
+  touched_.assign(mesh.tags.size(), false);
+  for (std::uint64_t key : keys_) touched_[key >> 32] = touched_[key & 0xffffffff] = true;
+}
+
+std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use) {
+  struct Corners {
+    std::array<Index, 4> rows;  // sorted; a triangle has kNone for the fourth
+    std::uint32_t entity;
+    bool operator<(const Corners& other) const { return std::tie(rows, entity) < std::tie(other.rows, other.entity); }
+  };
+  std::vector<Corners> shared;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    if (mesh.entities[e].dim != 2) continue;
+    for (const ElementBlock& block : mesh.entities[e].blocks) {
+      if (block.corners != 3 && block.corners != 4) continue;
+      for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
+        Corners corners{{kNone, kNone, kNone, kNone}, e};
+        bool common = true;
+        for (std::size_t k = 0; k < block.corners; ++k) {
+          corners.rows[k] = mesh.rows.find(block.nodes[i + k]);
+          common = common && corners.rows[k] != kNone && use.several[corners.rows[k]];
+        }
+        std::sort(corners.rows.begin(), corners.rows.end());
+        if (common) shared.push_back(corners);
+      }
+    }
+  }
+  std::sort(shared.begin(), shared.end());
+  std::map<std::uint32_t, CommonElement> found;
+  for (std::size_t i = 1; i < shared.size(); ++i) {
+    const Corners &a = shared[i - 1], &b = shared[i];
+    if (a.rows != b.rows || a.entity == b.entity) continue;
+    found.try_emplace(a.entity, CommonElement{b.entity, a.rows[0]});
+    found.try_emplace(b.entity, CommonElement{a.entity, a.rows[0]});
+  }
+  return found;
+}
+
+bool FixedEdges::contains(Index row_a, Index row_b) const {
+  return touched_[row_a] && touched_[row_b] && std::binary_search(keys_.begin(), keys_.end(), edge_key(row_a, row_b));
+}
+
+SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
+                         std::vector<Index>& local) {
+  SurfaceMesh surface;
+  surface.entity = entity;
+  const Elements elements = read_elements(mesh, mesh.entities[entity]);
+  refuse_volume(mesh, use, elements);
+  const Orientation orientation = orient_surface(mesh, elements, local);
+  if (orientation.flipped)
+    surface.warnings.push_back(
+        fmt::format("{} elements were oriented against their neighbours and have been turned", orientation.flipped));
+  const std::vector<Index> touching = nodes_of_several_parts(elements, orientation, local);
+  for (const std::vector<Index>& members : members_of_parts(orientation)) {
+    SurfacePart part = make_part(mesh, elements, orientation, members, local);
+    set_constraints(mesh, use, fixed_edges, entity, touching, part);
+    surface.parts.push_back(std::move(part));
+  }
+  return surface;
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,60 @@
+#pragma once
+/// From the mesh of a model to what the engine takes.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gmsh/model/model_mesh.hpp"
+#include "qmorph/patch.hpp"
+
+namespace qmorph::adapter {
+
+/// A set of elements of one surface that hang together by edges. Parts may lie in different planes and have
+/// different orientations, which a file with one elementary tag for everything does have.
+struct SurfacePart {
+  Patch patch;
+  std::vector<Index> rows;             ///< of the model's nodes, one for each point of the patch
+  std::vector<std::size_t> quad_tags;  ///< of the patch's quads
+};
+
+/// One surface, ready to convert.
+struct SurfaceMesh {
+  std::uint32_t entity = 0;  ///< index into ModelMesh::entities
+  std::vector<SurfacePart> parts;
+  std::vector<std::string> warnings;
+  bool quads_may_go = false;  ///< the quads of the input are not kept: what they are made into takes their tags
+};
+
+/// Edges of the mesh that nothing may remove: those with a line element on them, and those that several surfaces
+/// share. MSH files know nothing of embedded curves, so that the elements have to say it.
+class FixedEdges {
+ public:
+  FixedEdges(const ModelMesh& mesh, const NodeUse& use);
+  bool contains(Index row_a, Index row_b) const;
+
+ private:
+  std::vector<std::uint64_t> keys_;  ///< sorted
+  std::vector<bool> touched_;        ///< rows that such an edge ends at: most edges of a mesh need no search
+};
+
+/// An element that another surface has as well.
+struct CommonElement {
+  std::uint32_t other = 0;  ///< index into ModelMesh::entities
+  Index row = kNone;        ///< one of its nodes
+};
+
+/// Surfaces that have an element in common with another: neither could be changed and still fit the other.
+std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use);
+
+/// Reads one surface: parts, constraints, fixed nodes. Triangles that are oriented against the others
+/// of their part are turned, with a warning.
+/// \throws SurfaceError if it has elements that are not triangles and quads of one order, bounds a volume with elements,
+///         is not a manifold, has no orientation, has a node at no place (NaN), or refers to a
+///         node that does not exist.
+/// `local` is scratch: as long as the mesh has nodes, all kNone before and after.
+SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
+                         std::vector<Index>& local);
+
+}  // namespace qmorph::adapter

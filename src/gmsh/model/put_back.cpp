@@ -1,0 +1,149 @@
+#include "gmsh/model/put_back.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+void add_nodes(const EntityMesh& entity) {
+  if (!entity.node_tags.empty())
+    ::gmsh::model::mesh::addNodes(entity.dim, entity.tag, entity.node_tags, entity.xyz, entity.uv);
+}
+
+/// All types in one call: each call makes Gmsh number all nodes of the model again.
+void add_elements(const EntityMesh& entity) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  for (const ElementBlock& block : entity.blocks) {
+    types.push_back(block.type);
+    tags.push_back(block.tags);
+    nodes.push_back(block.nodes);
+  }
+  if (!types.empty()) ::gmsh::model::mesh::addElements(entity.dim, entity.tag, types, tags, nodes);
+}
+
+/// For each entity, the others whose elements use nodes that it owns.
+std::vector<std::set<std::uint32_t>> find_users(const ModelMesh& mesh) {
+  std::vector<std::set<std::uint32_t>> users(mesh.entities.size());
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
+    std::uint32_t last = e;  // neighbours in the list mostly have one owner
+    for (const ElementBlock& block : mesh.entities[e].blocks)
+      for (std::size_t tag : block.nodes) {
+        const Index row = mesh.rows.find(tag);
+        if (row == kNone || mesh.owner[row] == last || mesh.owner[row] == e) continue;
+        last = mesh.owner[row];
+        users[last].insert(e);
+      }
+  }
+  return users;
+}
+
+void clear_and_refill(const ModelMesh& mesh, const std::vector<Replacement>& replacements) {
+  std::map<std::uint32_t, const EntityMesh*> fresh;
+  std::vector<std::uint32_t> changed;
+  for (const Replacement& replacement : replacements) {
+    fresh[replacement.entity] = replacement.fresh;
+    changed.push_back(replacement.entity);
+  }
+  std::vector<const EntityMesh*> refill;
+  for (std::uint32_t e : find_cleared(mesh, changed))
+    refill.push_back(fresh.count(e) ? fresh.at(e) : &mesh.entities[e]);
+  ::gmsh::vectorpair to_clear;
+  for (auto it = refill.rbegin(); it != refill.rend(); ++it)  // volumes come last in the model
+    to_clear.emplace_back((*it)->dim, (*it)->tag);
+  ::gmsh::model::mesh::clear(to_clear);
+  for (const EntityMesh* entity : refill) add_nodes(*entity);
+  for (const EntityMesh* entity : refill) add_elements(*entity);
+}
+
+#if QMORPH_GMSH_AT_LEAST(4, 13)
+
+/// Takes the elements of surfaces away alone. Nodes that stay keep their place in the model, periodic maps included.
+void exchange_elements(const ModelMesh& mesh, const std::vector<Replacement>& replacements) {
+  bool nodes_are_left_over = false;
+  for (const Replacement& replacement : replacements) ::gmsh::model::mesh::removeElements(2, replacement.fresh->tag);
+  for (const auto& [e, entity] : replacements) {
+    EntityMesh added;
+    added.dim = entity->dim;
+    added.tag = entity->tag;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < entity->node_tags.size(); ++i) {
+      const auto at = entity->xyz.begin() + std::ptrdiff_t(3 * i);
+      const std::vector<double> xyz(at, at + 3);
+      std::vector<double> uv;
+      if (!entity->uv.empty()) uv = {entity->uv[2 * i], entity->uv[2 * i + 1]};
+      if (mesh.rows.find(entity->node_tags[i]) != kNone) {
+        ::gmsh::model::mesh::setNode(entity->node_tags[i], xyz, uv);
+        ++kept;
+        continue;
+      }
+      added.node_tags.push_back(entity->node_tags[i]);
+      added.xyz.insert(added.xyz.end(), xyz.begin(), xyz.end());
+      added.uv.insert(added.uv.end(), uv.begin(), uv.end());
+    }
+    add_nodes(added);
+    nodes_are_left_over = nodes_are_left_over || mesh.entities[e].node_tags.size() != kept;
+  }
+  for (const Replacement& replacement : replacements) add_elements(*replacement.fresh);
+  if (nodes_are_left_over) ::gmsh::model::mesh::reclassifyNodes();
+}
+
+bool are_surfaces(const std::vector<Replacement>& replacements) {
+  return std::all_of(replacements.begin(), replacements.end(), [](const Replacement& r) { return r.fresh->dim == 2; });
+}
+
+#endif
+
+}  // namespace
+
+std::vector<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::vector<std::uint32_t>& changed) {
+  const auto users = find_users(mesh);
+  std::map<std::pair<int, int>, std::uint32_t> index;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) index[{mesh.entities[e].dim, mesh.entities[e].tag}] = e;
+  const bool only_surfaces =
+      std::all_of(changed.begin(), changed.end(), [&](std::uint32_t e) { return mesh.entities[e].dim >= 2; });
+  std::set<std::uint32_t> cleared;
+  std::vector<std::uint32_t> open = changed;
+  while (!open.empty()) {
+    const std::uint32_t e = open.back();
+    open.pop_back();
+    if (!cleared.insert(e).second) continue;
+    const EntityMesh& entity = mesh.entities[e];
+    if (entity.dim < 2 && only_surfaces)
+      throw InputError(fmt::format("nodes of a surface belong to {} {}, which cannot be put back; classify the nodes",
+                                   entity.dim ? "curve" : "point", entity.tag));
+    open.insert(open.end(), users[e].begin(), users[e].end());
+    std::vector<int> up, down;
+    if (entity.dim == 1 || entity.dim == 2) ::gmsh::model::getAdjacencies(entity.dim, entity.tag, up, down);
+    for (int tag : up)
+      if (const auto found = index.find({entity.dim + 1, tag});
+          found != index.end() && mesh.entities[found->second].element_count())
+        open.push_back(found->second);
+  }
+  return {cleared.begin(), cleared.end()};
+}
+
+void put_back(const ModelMesh& mesh, const std::vector<Replacement>& replacements) {
+  const StageLog log = run_logged([&] {
+#if QMORPH_GMSH_AT_LEAST(4, 13)
+    if (are_surfaces(replacements)) return exchange_elements(mesh, replacements);
+#endif
+    clear_and_refill(mesh, replacements);
+  });
+  if (!log.errors.empty()) throw InputError("Gmsh cannot take the new elements back: " + first_errors(log));
+  // Gmsh says it as a warning, and then nothing has been cleared.
+  for (const std::string& warning : log.warnings)
+    if (warning.find("Cannot delete mesh") != std::string::npos)
+      throw InputError("Gmsh cannot take the new elements back: " + warning);
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,218 @@
+#include "gmsh/read/meshing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "gmsh/model/high_order.hpp"
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/read/groups.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/scratch_file.hpp"
+#include "gmsh/session/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// Gmsh's number of "simple": the only pairing that a script can switch off for each surface.
+constexpr double kSimplePairing = 0;
+/// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly.
+constexpr double kBlossomPairing = 1;
+
+std::vector<int> all_surfaces() {
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  std::vector<int> tags;
+  for (const auto& [dim, tag] : surfaces) tags.push_back(tag);
+  return tags;
+}
+
+/// Surfaces with `Recombine Surface`. No call of 4.8 tells, but the model written as a script does.
+std::vector<int> flagged_surfaces() {
+  const ScratchFile script(".geo_unrolled");
+  run_logged([&] { ::gmsh::write(script.path()); });
+  std::ifstream in(script.path());
+  static const std::regex statement(R"(^\s*Recombine Surface \{([^}]*)\})");
+  static const std::regex number(R"(\d+)");
+  std::set<int> tags;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (!std::regex_search(line, match, statement)) continue;
+    const std::string list = match[1];
+    for (std::sregex_iterator it(list.begin(), list.end(), number), end; it != end; ++it)
+      tags.insert(std::stoi(it->str()));
+  }
+  return {tags.begin(), tags.end()};
+}
+
+/// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle below 0
+/// accepts no pair (0 still accepts some, the worst ones).
+void forbid_pairing(const std::vector<int>& surfaces) {
+  const ScratchFile script(".geo");
+  {
+    std::ofstream out(script.path());
+    for (int tag : surfaces) out << "Recombine Surface{" << tag << "} = -1;\n";
+    out << "Mesh.RecombinationAlgorithm = " << kSimplePairing << ";\n";
+    if (!out.flush()) throw InputError("cannot write to the temporary directory " + script.path());
+  }
+  ::gmsh::merge(script.path());
+}
+
+/// Options that would make Gmsh recombine by itself, for the time of the meshing.
+struct RecombinationOff {
+  ScopedOption all{"Mesh.RecombineAll", 0};
+  ScopedOption algorithm{"Mesh.RecombinationAlgorithm", kBlossomPairing};
+  ScopedOption subdivision{"Mesh.SubdivisionAlgorithm", 0};
+};
+
+double area_or_one(int surface) {
+  double area = 1;  // where there is no CAD kernel to ask, every surface is expected to have elements
+  const StageLog log = run_logged([&] { ::gmsh::model::occ::getMass(2, surface, area); });
+  return log.errors.empty() ? area : 1;
+}
+
+bool has_elements(int dim, int tag) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
+  return !types.empty();
+}
+
+/// The surface that Compound Surface makes hands its elements to those that it is made of, to narrow ones sometimes none.
+/// \return what is without elements for that reason
+std::vector<std::string> check_every_surface_has_elements() {
+  bool compound = false;
+  std::vector<int> bare;
+  for (int tag : all_surfaces()) {
+    if (has_elements(2, tag)) continue;
+    const bool discrete = entity_type(2, tag) == "Discrete surface";
+    compound = compound || discrete;
+    if (!discrete && area_or_one(tag) > 0) bare.push_back(tag);
+  }
+  if (!bare.empty() && !compound) throw InputError(fmt::format("Gmsh made no element on surface {}", bare.front()));
+  if (bare.empty()) return {};
+  return {fmt::format("Gmsh gave no element of a compound to surfaces {}", fmt::join(bare, ", "))};
+}
+
+/// Requests for homology are answered after each dimension, and before there are elements with a complaint.
+void forgive_homology(StageLog& log) {
+  std::erase_if(log.errors, [](const std::string& error) { return error.find("Cell Complex is empty") == 0; });
+}
+
+/// A volume of a file without geometry is not meshed by Gmsh; one of its built-in kernel inside the same surfaces is.
+void make_meshable(int volume) {
+  ::gmsh::vectorpair sides;
+  ::gmsh::model::getBoundary({{3, volume}}, sides, false, false);
+  if (sides.empty())
+    throw InputError(fmt::format("the file does not say what surfaces volume {} has; with MSH 4.1 it would", volume));
+  std::vector<int> surfaces, groups;
+  for (const auto& side : sides) {
+    surfaces.push_back(side.second);
+    // Gmsh crashes there.
+    if (!has_elements(2, side.second))
+      throw InputError(fmt::format("volume {} cannot be meshed: its surface {} has no elements", volume, side.second));
+  }
+  ::gmsh::model::getPhysicalGroupsForEntity(3, volume, groups);
+  const StageLog log = run_logged([&] {
+    ::gmsh::model::removeEntities({{3, volume}});
+    ::gmsh::model::geo::remove({{3, volume}});
+    ::gmsh::model::geo::addVolume({::gmsh::model::geo::addSurfaceLoop(surfaces)}, volume);
+    ::gmsh::model::geo::synchronize();
+  });
+  if (!log.errors.empty()) throw InputError(fmt::format("Gmsh cannot mesh volume {}: {}", volume, first_errors(log)));
+  for (int group : groups) add_to_group(3, group, {volume});
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_surfaces() {
+  const ScopedOption linear("Mesh.ElementOrder", 1);  // raised when the quads are there
+  const bool all = get_option("Mesh.RecombineAll") != 0 || get_option("Mesh.SubdivisionAlgorithm") == 1;
+  const std::vector<int> flagged = all ? all_surfaces() : flagged_surfaces();
+#if !QMORPH_GMSH_AT_LEAST(4, 9)
+  // Frontal-Delaunay for quads crashes in a Gmsh without the ANN library, like Debian's, unless it needs no neighbours.
+  if (get_option("Mesh.Algorithm") == 8) set_option("Mesh.CrossFieldClosestPoint", 0);
+#endif
+  StageLog log = run_logged([&] {
+    const RecombinationOff off;
+    set_option("Mesh.RecombineAll", 1);
+    ::gmsh::model::mesh::generate(1);
+    set_option("Mesh.RecombineAll", 0);
+    if (!flagged.empty()) forbid_pairing(flagged);
+    ::gmsh::model::mesh::generate(2);
+  });
+  forgive_homology(log);
+  if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
+  const std::vector<std::string> bare = check_every_surface_has_elements();
+  log.warnings.insert(log.warnings.end(), bare.begin(), bare.end());
+  return log.warnings;
+}
+
+bool drop_volumes() {
+  ::gmsh::vectorpair volumes;
+  ::gmsh::model::getEntities(volumes, 3);
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 3);
+  if (types.empty()) return false;
+  const StageLog log = run_logged([&] { ::gmsh::model::mesh::clear(volumes); });
+  ::gmsh::model::mesh::getElementTypes(types, 3);
+  if (!log.errors.empty() || !types.empty())
+    throw InputError("Gmsh cannot remove the volume elements: " + first_errors(log));
+  return true;
+}
+
+std::vector<std::string> mesh_volumes(bool keep_numbers) {
+  ::gmsh::vectorpair volumes;
+  ::gmsh::model::getEntities(volumes, 3);
+  if (volumes.empty()) return {"there is no volume to mesh"};
+  for (const auto& [dim, tag] : volumes)
+    if (entity_type(dim, tag).rfind("Discrete", 0) == 0 && !has_elements(dim, tag)) make_meshable(tag);
+  const StageLog log = run_logged([&] {
+    const RecombinationOff off;
+    const ScopedOption linear("Mesh.ElementOrder", 1);
+    const ScopedOption renumber("Mesh.Renumber", keep_numbers ? 0 : 1);
+    ::gmsh::model::mesh::generate(3);
+  });
+  // Elements of several volumes are in each of them then, and freed twice.
+  if (!log.errors.empty()) throw BrokenModel("Gmsh cannot mesh the volumes on these quads: " + first_errors(log));
+  for (const auto& [dim, tag] : volumes)
+    if (!has_elements(dim, tag)) throw InputError(fmt::format("Gmsh made no element in volume {}", tag));
+  return log.warnings;
+}
+
+RaisedModel raise_model() {
+  RaisedModel raised;
+  const int order = static_cast<int>(get_option("Mesh.ElementOrder"));
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 2);
+  const bool is_linear =
+      std::all_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 1; });
+  if (order < 2 || !is_linear) return raised;
+  const StageLog log = run_logged([&] {
+    ::gmsh::model::mesh::setOrder(order);
+    if (get_option("Mesh.HighOrderOptimize") != 0) ::gmsh::model::mesh::optimize("HighOrder");
+  });
+  if (!log.errors.empty())
+    throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
+  raised.warnings = log.warnings;
+  const ModelMesh mesh = read_model_mesh();
+  for (const EntityMesh& entity : mesh.entities) {
+    if (entity.dim != 2) continue;
+    const std::string where = find_bent_corner(mesh, entity);
+    if (!where.empty())
+      raised.bent.push_back(fmt::format("surface {}: a curved edge of order {} turns an element over {}; refine there",
+                                        entity.tag, order, where));
+  }
+  return raised;
+}
+
+void partition(int count) {
+  const StageLog log = run_logged([&] { ::gmsh::model::mesh::partition(count); });
+  if (!log.errors.empty()) throw InputError("Gmsh cannot partition the mesh: " + first_errors(log));
+}
+
+}  // namespace qmorph::adapter

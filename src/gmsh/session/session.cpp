@@ -1,0 +1,137 @@
+#include "gmsh/session/session.hpp"
+
+#include <cstddef>
+#include <exception>
+#include <utility>
+
+#include "gmsh/session/compat.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+/// The log is empty below 2, and 5 is what the gmsh command has.
+constexpr double kVerbosity = 5;
+
+constexpr std::size_t kErrorsToShow = 3;
+
+bool take(const std::string& line, std::string_view prefix, std::vector<std::string>& into) {
+  if (line.compare(0, prefix.size(), prefix) != 0) return false;
+  into.push_back(line.substr(prefix.size()));
+  return true;
+}
+
+std::string get_last_error() {
+  std::string error;
+  ::gmsh::logger::getLastError(error);
+  return error;
+}
+
+}  // namespace
+
+Session::Session(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"qmorph"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  // No configuration files: the same input and options give the same mesh for every user.
+  ::gmsh::initialize(static_cast<int>(words.size()), argv.data(), false);
+  take_control();
+}
+
+Session::~Session() {
+  if (left_) return;
+  try {
+    ::gmsh::finalize();
+  } catch (...) {  // a destructor has nobody to tell
+  }
+}
+
+StageLog run_logged(const std::function<void()>& stage) {
+  StageLog log;
+  const std::string last_error = get_last_error();
+  ::gmsh::logger::start();
+  std::exception_ptr ours;
+  try {
+    stage();
+  } catch (const Error&) {
+    ours = std::current_exception();
+  } catch (const std::string& error) {
+    log.errors.push_back(error);
+  } catch (const std::exception& error) {
+    log.errors.push_back(error.what());
+  }
+  std::vector<std::string> lines;
+  ::gmsh::logger::get(lines);
+  ::gmsh::logger::stop();
+  if (ours) std::rethrow_exception(ours);
+  for (const std::string& line : lines) {
+    if (take(line, "Error: ", log.errors)) continue;
+    if (take(line, "Warning: ", log.warnings)) continue;
+    take(line, "Info: ", log.information);
+  }
+  // A script that turns the verbosity off turns the log off, too, but not this.
+  const std::string error = get_last_error();
+  if (log.errors.empty() && !error.empty() && error != last_error) log.errors.push_back(error);
+  return log;
+}
+
+std::string first_errors(const StageLog& log) {
+  if (log.errors.empty()) return "no reason given";
+  std::string text;
+  for (std::size_t i = 0; i < log.errors.size() && i < kErrorsToShow; ++i) text += (i ? "; " : "") + log.errors[i];
+  if (log.errors.size() > kErrorsToShow)
+    text += " (and " + std::to_string(log.errors.size() - kErrorsToShow) + " more)";
+  return text;
+}
+
+QuietErrors::QuietErrors()
+    : abort_on_error_(get_option("General.AbortOnError")), verbosity_(get_option("General.Verbosity")) {
+  set_option("General.AbortOnError", 0);
+  if (verbosity_ < 2) set_option("General.Verbosity", 2);
+}
+
+QuietErrors::~QuietErrors() {
+  try {
+    set_option("General.AbortOnError", abort_on_error_);
+    set_option("General.Verbosity", verbosity_);
+  } catch (...) {  // a destructor has nobody to tell
+  }
+}
+
+double get_option(const std::string& name) {
+  double value = 0;
+  ::gmsh::option::getNumber(name, value);
+  return value;
+}
+
+bool option_exists(const std::string& name) {
+  double number = 0;
+  std::string text;
+  return run_logged([&] { ::gmsh::option::getNumber(name, number); }).errors.empty() ||
+         run_logged([&] { ::gmsh::option::getString(name, text); }).errors.empty();
+}
+
+void set_option(const std::string& name, double value) { ::gmsh::option::setNumber(name, value); }
+
+void take_control() {
+  set_option("General.Terminal", 0);
+  set_option("General.AbortOnError", 0);
+  set_option("General.Verbosity", kVerbosity);
+  set_option("General.NumThreads", 1);
+  for (const char* name : {"Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D"}) set_option(name, 1);
+}
+
+ScopedOption::ScopedOption(std::string name, double value) : name_(std::move(name)), before_(get_option(name_)) {
+  set_option(name_, value);
+}
+
+ScopedOption::~ScopedOption() {
+  try {
+    set_option(name_, before_);
+  } catch (...) {  // a destructor has nobody to tell
+  }
+}
+
+}  // namespace qmorph::adapter

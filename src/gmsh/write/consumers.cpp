@@ -1,0 +1,262 @@
+#include "gmsh/write/consumers.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "gmsh/model/high_order.hpp"
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/read/groups.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+constexpr std::array kConsumers = {
+    // grid_in.cc: a boundary id on an inner face is an exception; quads are reordered only if there is nothing else.
+    Consumer{.name = "dealii", .title = "deal.II", .format = "msh2", .only_quads = true, .inner_lines = false},
+    // gmsh.cpp: attributes all positive; one order in a file.
+    Consumer{.name = "mfem", .title = "MFEM", .format = "msh2", .max_order = 10, .right_handed = true},
+    // gmsh.py: every cell tagged exactly once; no 8-node quads; node numbers without gaps.
+    Consumer{.name = "dolfinx",
+             .title = "DOLFINx",
+             .format = "msh2",
+             .max_order = 2,
+             .only_quads = true,
+             .needs_surface_groups = true},
+    // egconvert.c: 404, 408, 409.
+    Consumer{.name = "elmer", .title = "ElmerGrid", .format = "msh2", .max_order = 2},
+    Consumer{.name = "su2",
+             .title = "SU2",
+             .format = "su2",
+             .inner_lines = false,
+             .needs_curve_groups = true,
+             .right_handed = true},
+    Consumer{.name = "calculix",
+             .title = "CalculiX",
+             .format = "inp",
+             .max_order = 2,
+             .wants_incomplete = true,
+             .right_handed = true},
+    Consumer{.name = "abaqus",
+             .title = "Abaqus",
+             .format = "inp",
+             .max_order = 2,
+             .wants_incomplete = true,
+             .right_handed = true},
+    // gmshToFoam.C: version 2 in ASCII; quads are patches of the cells behind them.
+    Consumer{.name = "openfoam", .title = "gmshToFoam", .format = "msh2", .needs_volumes = true},
+    // LibGmsh2Specfem: the first element says by its type whether there are 4 or 9 nodes, and must be a line; names are
+    // looked up, and one that is missing ends it.
+    Consumer{.name = "specfem2d",
+             .title = "SPECFEM2D",
+             .format = "msh2",
+             .max_order = 2,
+             .only_quads = true,
+             .points = false,
+             .specfem_names = true,
+             .needs_surface_groups = true,
+             .right_handed = true},
+};
+
+using Edge = std::pair<std::size_t, std::size_t>;
+
+/// Sides of surface elements, with how many elements each has.
+std::map<Edge, int> count_sides(const ModelMesh& mesh) {
+  std::map<Edge, int> count;
+  for (const EntityMesh& entity : mesh.entities) {
+    if (entity.dim != 2) continue;
+    for (const ElementBlock& block : entity.blocks)
+      for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element)
+        for (std::size_t k = 0; k < block.corners; ++k)
+          ++count[std::minmax(block.nodes[i + k], block.nodes[i + (k + 1) % block.corners])];
+  }
+  return count;
+}
+
+/// The nodes of an element that is walked round the other way. Orders 1 and 2.
+std::vector<std::size_t> turned(std::vector<std::size_t> nodes, std::size_t corners) {
+  const auto at = [&](std::size_t i) { return nodes.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::reverse(at(1), at(corners));
+  if (nodes.size() >= 2 * corners) std::reverse(at(corners), at(2 * corners));
+  return nodes;
+}
+
+class Collector {
+ public:
+  Collector(const Consumer& consumer, bool everything)
+      : consumer_(consumer), mesh_(read_model_mesh()), everything_(everything) {
+    ::gmsh::vectorpair groups;
+    ::gmsh::model::getPhysicalGroups(groups);
+    if (groups.empty()) everything_ = true;
+    if (!consumer.inner_lines) sides_ = count_sides(mesh_);
+    for (const Eigen::Vector3d& p : mesh_.points) flat_ = flat_ && p.z() == mesh_.points.front().z();
+  }
+
+  ConsumerMesh collect();
+
+ private:
+  void add_entity(const EntityMesh& entity);
+  void complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups);
+  void complain_of_elements();
+  void complain_of_names();
+  bool is_inner_line(const ElementBlock& block, std::size_t i) const;
+  bool is_clockwise(const ElementBlock& block, std::size_t i) const;
+  std::size_t number(std::size_t tag);
+  Eigen::Vector3d point(std::size_t tag) const { return mesh_.points[mesh_.rows.find(tag)]; }
+
+  const Consumer& consumer_;
+  ModelMesh mesh_;
+  bool everything_, flat_ = true;
+  double scale_ = get_option("Mesh.ScalingFactor");
+  std::map<Edge, int> sides_;
+  std::map<std::size_t, std::size_t> numbers_;
+  ConsumerMesh result_;
+  std::set<int> signs_;  // of the surfaces' groups: 1 in one, 0 in none
+};
+
+std::size_t Collector::number(std::size_t tag) {
+  const auto [found, is_new] = numbers_.try_emplace(tag, numbers_.size() + 1);
+  if (is_new) result_.nodes.push_back(scale_ * point(tag));
+  return found->second;
+}
+
+bool Collector::is_inner_line(const ElementBlock& block, std::size_t i) const {
+  const auto side = sides_.find(std::minmax(block.nodes[i], block.nodes[i + 1]));
+  return side == sides_.end() || side->second != 1;
+}
+
+bool Collector::is_clockwise(const ElementBlock& block, std::size_t i) const {
+  double area = 0;
+  const Eigen::Vector3d origin = point(block.nodes[i]);
+  for (std::size_t k = 2; k < block.corners; ++k)
+    area += (point(block.nodes[i + k - 1]) - origin).cross(point(block.nodes[i + k]) - origin).z();
+  return area < 0;
+}
+
+void Collector::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
+  if (groups.size() > 1 && entity.dim >= 1)
+    result_.complaints.push_back(fmt::format("{} {} is in {} physical groups, and {} takes one for each element",
+                                             entity.dim == 1 ? "curve" : "surface", entity.tag, groups.size(),
+                                             consumer_.title));
+  if (entity.dim != 2) return;
+  signs_.insert(groups.empty() ? 0 : 1);
+  if (groups.empty() && consumer_.needs_surface_groups)
+    result_.complaints.push_back(
+        fmt::format("surface {} is in no physical group, and {} wants every cell tagged", entity.tag, consumer_.title));
+}
+
+void Collector::add_entity(const EntityMesh& entity) {
+  std::vector<int> groups;
+  ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
+  if (entity.blocks.empty() || (groups.empty() && !everything_)) return;
+  if (entity.dim == 0 && !consumer_.points) return;
+  complain_of_groups(entity, groups);
+  for (const ElementBlock& block : entity.blocks)
+    for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
+      if (entity.dim == 1 && !consumer_.inner_lines && is_inner_line(block, i)) continue;
+      ConsumerElement element{entity.dim, block.type, entity.tag, groups, {}};
+      const auto begin = block.nodes.begin() + static_cast<std::ptrdiff_t>(i);
+      element.nodes.assign(begin, begin + static_cast<std::ptrdiff_t>(block.nodes_per_element));
+      if (entity.dim == 2 && consumer_.right_handed && flat_ && is_clockwise(block, i)) {
+        if (block.order > 2)
+          throw OutputError(fmt::format("surface {} is clockwise, and elements of order {} cannot be turned",
+                                        entity.tag, block.order));
+        element.nodes = turned(element.nodes, block.corners);
+      }
+      for (std::size_t& node : element.nodes) node = number(node);
+      result_.elements.push_back(std::move(element));
+    }
+}
+
+/// The converter of SPECFEM2D looks for these.
+void Collector::complain_of_names() {
+  std::set<std::string> missing = {"Bottom", "Left", "Right", "Top"};
+  std::string wrong;
+  for (const PhysicalGroup& group : read_physical_groups()) {
+    if (group.dim == 1) missing.erase(group.name);
+    const bool is_medium =
+        group.name.size() > 1 && group.name[0] == 'M' &&
+        std::all_of(group.name.begin() + 1, group.name.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (group.dim == 2 && !is_medium)
+      wrong += fmt::format("{}{} \"{}\"", wrong.empty() ? "" : ", ", group.tag, group.name);
+  }
+  if (!missing.empty())
+    result_.complaints.push_back(fmt::format("{} wants physical curves Top, Bottom, Left and Right, and there is no {}",
+                                             consumer_.title, fmt::join(missing, ", ")));
+  if (!wrong.empty())
+    result_.complaints.push_back(
+        fmt::format("{} wants physical surfaces to be named M1, M2, ..., and there is {}", consumer_.title, wrong));
+}
+
+void Collector::complain_of_elements() {
+  std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
+  int order = 1;
+  std::set<int> orders;
+  std::map<int, ElementType> types;
+  for (const ConsumerElement& element : result_.elements) {
+    if (!types.count(element.type)) types[element.type] = element_type(element.type);
+    const ElementType& type = types.at(element.type);
+    if (element.dim == 2 && type.corners == 3) ++triangles;
+    if (element.dim == 3) ++volumes;
+    if (element.dim == 1 && !element.groups.empty()) ++grouped_lines;
+    order = std::max(order, type.order);
+    if (element.dim > 0) orders.insert(type.order);
+    if (element.dim == 2 && type.corners == 4 && type.order > 1 && type.incomplete() != consumer_.wants_incomplete &&
+        consumer_.max_order > 1 && consumer_.name != "elmer")
+      ++types[-1].nodes;
+  }
+  const auto say = [&](const std::string& what) { result_.complaints.push_back(what); };
+  if (triangles && consumer_.only_quads)
+    say(fmt::format(
+        "{} triangle{} left, and {} wants quads alone; an even number of sides around each surface leaves none",
+        triangles, triangles == 1 ? " is" : "s are", consumer_.title));
+  if (!volumes && consumer_.needs_volumes)
+    say(fmt::format(
+        "there are no cells of dimension 3, and {} reads no others; extrude the quads by one layer, or use -3",
+        consumer_.title));
+  if (!grouped_lines && consumer_.needs_curve_groups)
+    say(fmt::format("no curve is in a physical group, and {} would have no marker", consumer_.title));
+  if (order > consumer_.max_order)
+    say(fmt::format("its elements are of order {}, and {} takes order {} at most", order, consumer_.title,
+                    consumer_.max_order));
+  if (orders.size() > 1)
+    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(orders, " and "),
+                    consumer_.title));
+  if (consumer_.specfem_names) complain_of_names();
+  if (types.count(-1))
+    say(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})", consumer_.title,
+                    consumer_.wants_incomplete ? "8" : "9", consumer_.wants_incomplete ? 1 : 0));
+  if (consumer_.name == "mfem" && signs_.size() > 1)
+    say("some surfaces are in a physical group and some are not: a non-positive element attribute for MFEM");
+}
+
+ConsumerMesh Collector::collect() {
+  for (const EntityMesh& entity : mesh_.entities) add_entity(entity);
+  complain_of_elements();
+  return std::move(result_);
+}
+
+}  // namespace
+
+const Consumer& find_consumer(const std::string& name) {
+  std::string names;
+  for (const Consumer& consumer : kConsumers) {
+    if (consumer.name == name) return consumer;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", consumer.name);
+  }
+  throw UsageError(fmt::format("--for: there is no reader '{}' ({})", name, names));
+}
+
+ConsumerMesh collect_for(const Consumer& consumer, bool everything) {
+  return Collector(consumer, everything).collect();
+}
+
+}  // namespace qmorph::adapter

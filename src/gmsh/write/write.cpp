@@ -1,0 +1,255 @@
+#include "gmsh/write/write.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
+#include "gmsh/write/msh2_writer.hpp"
+#include "gmsh/write/staged_file.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FormatRow {
+  std::string_view name, extension;
+  double msh_version;  ///< 0: not MSH; -1: MSH of whatever version fits
+  bool holds_quads;
+};
+
+/// Gmsh's mesh formats. The extension makes gmsh::write take the format; the name is what -format says.
+constexpr std::array kFormats = {
+    FormatRow{"msh", ".msh", -1, true},    FormatRow{"msh1", ".msh1", 1, true},
+    FormatRow{"msh2", ".msh2", 2.2, true}, FormatRow{"msh22", ".msh22", 2.2, true},
+    FormatRow{"msh3", ".msh3", 3, true},   FormatRow{"msh4", ".msh4", 4.1, true},
+    FormatRow{"msh40", ".msh40", 4, true}, FormatRow{"msh41", ".msh41", 4.1, true},
+    FormatRow{"unv", ".unv", 0, true},     FormatRow{"vtk", ".vtk", 0, true},
+    FormatRow{"mail", ".mail", 0, true},   FormatRow{"mesh", ".mesh", 0, true},
+    FormatRow{"bdf", ".bdf", 0, true},     FormatRow{"cgns", ".cgns", 0, true},
+    FormatRow{"med", ".med", 0, true},     FormatRow{"diff", ".diff", 0, true},
+    FormatRow{"ir3", ".ir3", 0, true},     FormatRow{"inp", ".inp", 0, true},
+    FormatRow{"su2", ".su2", 0, true},     FormatRow{"dat", ".dat", 0, true},
+    FormatRow{"m", ".m", 0, true},         FormatRow{"key", ".key", 0, true},
+    FormatRow{"off", ".off", 0, true},     FormatRow{"obj", ".obj", 0, true},
+    FormatRow{"stl", ".stl", 0, false},    FormatRow{"ply2", ".ply2", 0, false},
+    FormatRow{"p3d", ".p3d", 0, false},    FormatRow{"celum", ".celum", 0, false},
+    FormatRow{"neu", ".neu", 0, false},    FormatRow{"wrl", ".wrl", 0, false},
+    FormatRow{"x3d", ".x3d", 0, false},
+};
+
+constexpr double kDefaultMshVersion = 4.1;
+
+OutputFormat make_format(const FormatRow& row) {
+  if (!row.holds_quads) throw OutputError(fmt::format("the format {} cannot hold quads", row.name));
+  OutputFormat format;
+  format.name = row.name;
+  format.extension = row.extension;
+  format.is_msh = row.msh_version != 0;
+  format.msh_version = std::max(row.msh_version, 0.0);
+  return format;
+}
+
+OutputFormat format_by_name(const std::string& name) {
+  for (const FormatRow& row : kFormats)
+    if (row.name == name) return make_format(row);
+  throw UsageError(
+      fmt::format("unknown format '{}' (one of msh, msh2, msh4, vtk, inp, su2, unv, bdf, mesh, ...)", name));
+}
+
+OutputFormat format_by_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const FormatRow& row : kFormats)
+    if (row.extension == extension) return make_format(row);
+  throw OutputError(fmt::format("cannot write {}: unknown extension '{}' (.msh, .vtk, .inp, .su2, ...; or use -format)",
+                                path, extension));
+}
+
+/// All versions of MSH share one extension unless the user writes another.
+std::string default_extension(const OutputFormat& format) { return format.is_msh ? ".msh" : format.extension; }
+
+double choose_version(const OutputFormat& format, const OpenedModel& opened, const MshWish& wish) {
+  if (format.msh_version > 0) return format.msh_version;
+  if (wish.version) return *wish.version;
+  const double option = get_option("Mesh.MshFileVersion");  // a script may have set it
+  if (option < 1 || option > kDefaultMshVersion)
+    throw OutputError(fmt::format("Mesh.MshFileVersion = {:g}: there is no such version of MSH", option));
+  if (option != kDefaultMshVersion) return option;
+  if (opened.msh.version == 0) return kDefaultMshVersion;
+  return opened.msh.version >= 2 && opened.msh.version < 3 ? 2.2 : opened.msh.version;
+}
+
+/// Entities with elements and without a physical group, which the old formats leave out if there is any group at all.
+::gmsh::vectorpair ungrouped_entities() {
+  ::gmsh::vectorpair entities, ungrouped;
+  ::gmsh::model::getEntities(entities);
+  for (const auto& [dim, tag] : entities) {
+    std::vector<int> groups, types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    ::gmsh::model::getPhysicalGroupsForEntity(dim, tag, groups);
+    if (!groups.empty()) continue;
+    ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
+    if (!types.empty()) ungrouped.emplace_back(dim, tag);
+  }
+  return ungrouped;
+}
+
+/// Before version 4, Mesh.SaveAll drops the groups and its absence drops what is in no group.
+/// A group with the number 0 is what these formats write, and read, for "none".
+class GroupZero {
+ public:
+  GroupZero() {
+    std::map<int, std::vector<int>> tags;
+    for (const auto& [dim, tag] : ungrouped_entities()) tags[dim].push_back(tag);
+    for (const auto& [dim, entities] : tags) {
+      ::gmsh::model::addPhysicalGroup(dim, entities, 0);
+      groups_.emplace_back(dim, 0);
+    }
+  }
+  ~GroupZero() {
+    if (!groups_.empty()) ::gmsh::model::removePhysicalGroups(groups_);
+  }
+  GroupZero(const GroupZero&) = delete;
+  GroupZero& operator=(const GroupZero&) = delete;
+
+ private:
+  ::gmsh::vectorpair groups_;
+};
+
+bool has_groups() {
+  ::gmsh::vectorpair groups;
+  ::gmsh::model::getPhysicalGroups(groups);
+  return !groups.empty();
+}
+
+/// Our own writer keeps the tags, and the partitions.
+bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
+  return version == 2.2 && (opened.msh.is_2() || !opened.views.steps.empty());
+}
+
+bool holds_views(double version) { return version == 2.2 || version >= 4; }
+
+void write_msh(const std::string& path, double version, bool everything) {
+  const ScopedOption version_option("Mesh.MshFileVersion", version);
+  if (!everything || !has_groups()) {
+    ::gmsh::write(path);
+  } else if (version >= 4) {
+    const ScopedOption save_all("Mesh.SaveAll", 1);
+    ::gmsh::write(path);
+  } else {
+    const ScopedOption save_all("Mesh.SaveAll", 0);
+    const GroupZero rest;
+    ::gmsh::write(path);
+  }
+}
+
+/// Gmsh does not notice when the disk is full. A whole .msh file ends with an $End line, in binary too.
+void check_msh_end(const std::string& written, const std::string& target) {
+  std::ifstream in(written, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(in.tellg());
+  std::string tail(static_cast<std::size_t>(std::min<std::streamoff>(size, 64)), ' ');
+  in.seekg(size - static_cast<std::streamoff>(tail.size()));
+  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  const std::size_t last_line = tail.rfind("\n$");
+  if (tail.empty() || tail.back() != '\n' || last_line == std::string::npos ||
+      (tail.compare(last_line, 5, "\n$End") != 0 && tail.compare(last_line, 5, "\n$END") != 0))
+    throw OutputError(fmt::format("cannot write {}: the file is not complete; is the disk full?", target));
+}
+
+}  // namespace
+
+OutputPlan plan_output(const std::string& input, const std::string& output, const std::string& format) {
+  OutputPlan plan;
+  const bool by_name = !format.empty() && format != "auto";
+  if (by_name) plan.format = format_by_name(format);
+  if (!output.empty()) {
+    plan.path = output;
+    if (!by_name) plan.format = format_by_extension(output);
+  } else {
+    if (!by_name) plan.format = format_by_name("msh");
+    plan.path = fs::path(input).replace_extension(default_extension(plan.format)).string();
+  }
+  plan.name = plan.path;
+  const StagedFile probe(plan.path, plan.format.extension);  // says at once if nothing can be written there
+  return plan;
+}
+
+StagedFile stage(const OutputPlan& plan) {
+  return StagedFile(plan.path, plan.format.is_msh ? ".msh" : plan.format.extension);
+}
+
+void check_format(const OutputPlan& plan) {
+  const StagedFile probe = stage(plan);
+  const StageLog log = run_logged([&] { ::gmsh::write(probe.path()); });
+  for (const std::string& error : log.errors)
+    if (error.find("nknown") != std::string::npos || error.find("ompiled without") != std::string::npos ||
+        error.find("must be compiled with") != std::string::npos)
+      throw OutputError(
+          fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.path, plan.format.name, error));
+}
+
+void renumber() {
+  run_logged([] {
+    ::gmsh::model::mesh::renumberNodes();
+    ::gmsh::model::mesh::renumberElements();
+  });
+}
+
+std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
+  std::vector<std::string> lines = opened.views.warnings;
+  const bool has_place =
+      plan.format.is_msh && !plan.for_reader && holds_views(choose_version(plan.format, opened, wish));
+  if (!opened.views.steps.empty() && !has_place)
+    lines.push_back(
+        fmt::format("data on nodes and elements (views) is not written to {}; MSH 2.2 and 4 keep it, "
+                    "without --for",
+                    plan.name));
+  if (opened.msh.version == 0 || plan.format.is_msh || !has_groups() || get_option("Mesh.SaveAll") != 0) return lines;
+  std::string surfaces;
+  for (const auto& [dim, tag] : ungrouped_entities())
+    if (dim == 2) surfaces += fmt::format("{}{}", surfaces.empty() ? "" : ", ", tag);
+  if (!surfaces.empty())
+    lines.push_back(
+        fmt::format("surfaces in no physical group are not written to {}: {} (-setnumber Mesh.SaveAll 1 writes all)",
+                    plan.name, surfaces));
+  return lines;
+}
+
+void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file) {
+  const bool keep_encoding = plan.format.is_msh && opened.msh.version != 0;
+  const bool binary = wish.binary.value_or(keep_encoding ? opened.msh.binary : get_option("Mesh.Binary") != 0);
+  const ScopedOption binary_option("Mesh.Binary", binary);
+  const double version = plan.format.is_msh ? choose_version(plan.format, opened, wish) : 0;
+  const StageLog log = run_logged([&] {
+    if (keeps_tags_of_msh2(version, opened))
+      write_msh2(file.path(), binary, opened.origin);
+    else if (plan.format.is_msh)
+      write_msh(file.path(), version, opened.msh.version != 0);
+    else
+      ::gmsh::write(file.path());
+  });
+  if (!log.errors.empty()) throw OutputError(fmt::format("cannot write {}: {}", plan.path, first_errors(log)));
+  if (holds_views(version))
+    append_views(file.path(), binary, opened.carried ? *opened.carried : carry_over(opened.views));
+  if (plan.format.is_msh) check_msh_end(file.path(), plan.path);
+}
+
+void copy_input(const std::string& input, const OutputPlan& plan, StagedFile& file) {
+  std::error_code error;
+  fs::copy_file(input, file.path(), fs::copy_options::overwrite_existing, error);
+  if (error) throw OutputError(fmt::format("cannot write {}: {}", plan.path, error.message()));
+}
+
+}  // namespace qmorph::adapter

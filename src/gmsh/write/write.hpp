@@ -1,0 +1,65 @@
+#pragma once
+/// From the model to a file.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gmsh/read/open.hpp"
+#include "gmsh/write/staged_file.hpp"
+
+namespace qmorph::adapter {
+
+/// A file format of Gmsh's `-format` option.
+struct OutputFormat {
+  std::string name;
+  std::string extension;   ///< by which Gmsh's API chooses the format, with the dot
+  double msh_version = 0;  ///< 0 if it is not MSH, or MSH in whatever version fits
+  bool is_msh = false;
+};
+
+/// What to write, decided before any work is done.
+struct OutputPlan {
+  std::string path;
+  std::string name;  ///< what messages call it
+  OutputFormat format;
+  bool for_reader = false;  ///< in the terms of --for: numbered anew
+};
+
+/// The path and the format by Gmsh's rules: -format wins over the extension of -o; without -o the name is the
+/// input's with the extension of the format, in the input's directory.
+/// \param output, format empty if not given
+/// \throws UsageError for a format that Gmsh does not have; OutputError for an extension that Gmsh does not
+///         have, a format that cannot hold quads, and a place where nothing can be written
+OutputPlan plan_output(const std::string& input, const std::string& output, const std::string& format);
+
+/// What the MSH writer is asked for beyond the format.
+struct MshWish {
+  std::optional<double> version;  ///< asked for by the user in so many words
+  std::optional<bool> binary;
+};
+
+/// The file that will become the output once it is committed.
+StagedFile stage(const OutputPlan& plan);
+
+/// \pre the model is empty: nothing has been opened yet
+/// \throws OutputError if this build of Gmsh cannot write the format at all
+void check_format(const OutputPlan& plan);
+
+/// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
+void renumber();
+
+/// A mesh that is there already is expected to come out whole, and formats other than MSH have only what is in groups
+/// if there are any, and no data on nodes and elements. \return what to say about it, each in a line
+std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
+
+/// Writes the current model, whole or not at all. What came from a .msh file goes out in the same version and
+/// encoding unless something else is asked for, and all of it, whether in physical groups or not.
+/// \param file of `stage`; still to be committed
+/// \throws OutputError; a previous file is as it was then
+void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file);
+
+/// Copies the input to the output: nothing was to be done, so nothing can be lost. \throws OutputError
+void copy_input(const std::string& input, const OutputPlan& plan, StagedFile& file);
+
+}  // namespace qmorph::adapter
