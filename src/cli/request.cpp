@@ -84,13 +84,12 @@ version, with or without a geometry), which is taken as it is; further files are
 constexpr std::string_view kHelpTail = R"(
 Exit status:
   0  every surface (or every one of --surfaces) consists of quads, but for one triangle in each
-     region with an odd number of sides
+     region with an odd number of sides; also where it did so before, and nothing was to be done
   1  the command line makes no sense
   2  the input cannot be opened or meshed; nothing has been written
   3  converted in part: OUT has been written, and the surfaces that are named on stderr are in it as
      they were
-  4  nothing to convert: all surfaces are quads already (OUT has been written, with the mesh of IN
-     as it was), or there are no surfaces (nothing has been written)
+  4  there are no surfaces with elements; nothing has been written
   5  OUT cannot be written; a previous file of that name is as it was
   6  --check: the mesh is not good enough; --for: the reader would not take it, and nothing has been
      written

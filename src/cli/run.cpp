@@ -103,8 +103,7 @@ adapter::OutputPlan check_places(const Request& request) {
 }
 
 int status_of(const ModelReport& model) {
-  if (model.count(SurfaceOutcome::kLeft)) return kConvertedInPart;
-  return model.count(SurfaceOutcome::kConverted) ? kAllConverted : kNothingToConvert;
+  return model.count(SurfaceOutcome::kLeft) ? kConvertedInPart : kAllConverted;
 }
 
 /// Nothing has changed: the output is to be the input, byte for byte.
@@ -156,6 +155,23 @@ void print_outcome(const ModelReport& model, const std::string& output, std::ost
     err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has the mesh as it was\n";
 }
 
+/// What parity forces is no failure, and there is something to do about it.
+void print_triangles(const Request& request, const ModelReport& model, std::ostream& err) {
+  if (request.all_quad || request.cleanup_only) return;
+  std::size_t triangles = 0;
+  std::vector<int> surfaces;
+  for (const SurfaceReport& surface : model.surfaces) {
+    if (surface.outcome != SurfaceOutcome::kConverted || surface.triangles_out == 0) continue;
+    triangles += surface.triangles_out;
+    surfaces.push_back(surface.tag);
+  }
+  if (triangles)
+    err << fmt::format("{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
+                       "leaves none\n",
+                       triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s",
+                       fmt::join(surfaces, ", "));
+}
+
 /// Gmsh may say one thing about each of a million nodes.
 void print_once(std::string_view prefix, const std::vector<std::string>& lines, std::ostream& err) {
   std::map<std::string, std::size_t> count;
@@ -178,6 +194,7 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
         err << "warning: surface " << surface.tag << ": " << warning << '\n';
     }
     if (facts.even) err << report::even_line(*facts.even) << '\n';
+    print_triangles(request, model, err);
     err << report::total_line(model, output, facts.total_seconds) << '\n';
   }
   print_outcome(model, output, err);
@@ -286,7 +303,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   if (model.surfaces.empty()) {
     err << "qmorph: nothing to convert: " << (request.from_stdin ? "standard input" : request.input)
         << " has no surface with elements\n";
-    return kNothingToConvert;
+    return kNoSurface;
   }
 
   const std::vector<std::string> bent = finish_model(request, opened, session);

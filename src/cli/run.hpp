@@ -13,7 +13,7 @@ enum ExitStatus : int {
   kBadUsage = 1,
   kBadInput = 2,
   kConvertedInPart = 3,
-  kNothingToConvert = 4,
+  kNoSurface = 4,
   kCannotWrite = 5,
   kNotGoodEnough = 6,
 };

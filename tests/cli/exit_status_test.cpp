@@ -154,7 +154,7 @@ TEST_CASE("status 2: not there, a directory, not readable") {
   scene.expect(result, 2, "cannot be read");
 }
 
-TEST_CASE("status 4: nothing to convert") {
+TEST_CASE("status 4: no surfaces") {
   Scene scene("in.geo", "Point(1) = {0, 0, 0, 1};\n");
   scene.expect(run_qmorph({scene.input, "-o", scene.output}), 4, "nothing to convert");
 }

@@ -69,7 +69,9 @@ TEST_CASE("process: exit statuses") {
   CHECK(read_file(directory / "stdout").empty());
   CHECK(call(directory, fmt::format("'{}' -foo", in)) == 1);
   CHECK(call(directory, "/none.geo") == 2);
-  CHECK(call(directory, fmt::format("'{}'", out)) == 4);
+  CHECK(call(directory, fmt::format("'{}'", out)) == 0);
+  write_file(directory / "point.geo", "Point(1) = {0, 0, 0, 1};\n");
+  CHECK(call(directory, fmt::format("'{}'", directory / "point.geo")) == 4);
   CHECK(call(directory, fmt::format("'{}' -o /no/such/directory/x.msh", in)) == 5);
   CHECK(call(directory, "--help") == 0);
   CHECK(call(directory, "") == 1);

@@ -228,12 +228,12 @@ TEST_CASE("round trip: -o may be the input") {
   CHECK(difference(before, read_snapshot(directory / "mesh.msh"), {1, 2}) == "");
 }
 
-TEST_CASE("round trip: a mesh of quads comes through byte for byte, with status 4") {
+TEST_CASE("round trip: a mesh of quads comes through byte for byte, with status 0") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
   REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "quads.msh"}).status == 0);
   const Result result = run_qmorph({directory / "quads.msh", "-o", directory / "again.msh"});
-  CHECK(result.status == 4);
+  CHECK(result.status == 0);  // a pipeline goes on
   CHECK(result.err.find("nothing to convert") != std::string::npos);
   CHECK((read_file(directory / "again.msh") == read_file(directory / "quads.msh")));
 }

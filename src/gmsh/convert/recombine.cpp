@@ -88,7 +88,7 @@ std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
 void refuse_bad_quads(const SurfaceMesh& surface) {
   for (const SurfacePart& part : surface.parts)
     if (const BadQuad bad = find_bad_quad(part.patch); bad.quad != kNone)
-      throw SurfaceError(fmt::format("its quad {} is inverted or not convex {}; mend it, or cut it into triangles",
+      throw SurfaceError(fmt::format("its quad {} is inverted or not convex {}; --cleanup-only (improve_quads()) mends such quads",
                                      part.quad_tags[bad.quad], bad.where));
 }
 
