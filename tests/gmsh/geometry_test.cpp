@@ -219,3 +219,54 @@ TEST_CASE("geometry: a request for homology does not stop the meshing") {
   CAPTURE(result.err);
   CHECK(result.status == 0);
 }
+
+TEST_CASE("geometry: surfaces made of facets are meshed with the sizes that the script asks for") {
+  const TemporaryDirectory directory;
+  // A box of 4 x 2 x 1 in twelve facets.
+  const double size[3] = {4, 2, 1};
+  std::string stl = "solid box\n";
+  for (int axis : {0, 1, 2})
+    for (int side : {0, 1}) {
+      const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+      const auto corner = [&](int i, int j) {
+        double p[3];
+        p[axis] = side * size[axis], p[a] = i * size[a], p[b] = j * size[b];
+        return "vertex " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + "\n";
+      };
+      for (int half : {0, 1}) {
+        const std::string first = corner(half, half), last = corner(1 - half, 1 - half);
+        const std::string middle = side ? corner(1 - half, half) : corner(half, 1 - half);
+        stl += "facet normal 0 0 0\nouter loop\n" + first + middle + last + "endloop\nendfacet\n";
+      }
+    }
+  write_file(directory / "box.stl", stl + "endsolid\n");
+  for (const std::string extra : {"", "Recombine Surface{:};\n"}) {
+    CAPTURE(extra);
+    write_file(directory / "in.geo",
+               "Merge \"box.stl\";\nClassifySurfaces{40 * Pi / 180, 1, 1, Pi};\nCreateGeometry;\n" + extra +
+                   "Mesh.MeshSizeMin = 0.25;\nMesh.MeshSizeMax = 0.25;\n");
+    const Result result = run_qmorph({directory / "in.geo"});
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    CHECK(!mentions(result.err, "quads already"));
+    std::size_t quads = 0;
+    const Snapshot after = read_snapshot(directory / "in.msh");
+    for (const auto& entity : after.mesh.entities)
+      if (const auto* block = entity.block(adapter::kQuad4)) quads += block->tags.size();
+    CHECK(quads > 28 * 16 / 2);  // the area is 28
+    CHECK(quads < 28 * 16 * 2);
+  }
+}
+
+TEST_CASE("geometry: what a script has meshed stays, and what it makes afterwards is meshed") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nMesh.MeshSizeMax = 0.05;\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh 2;\n"
+             "Rectangle(2) = {3, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.125;\n");
+  const Result result = run_qmorph({directory / "in.geo"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  const Snapshot after = read_snapshot(directory / "in.msh");
+  CHECK(element_counts(after, 1) == std::pair<std::size_t, std::size_t>(0, 400));
+  CHECK(element_counts(after, 2) == std::pair<std::size_t, std::size_t>(0, 64));
+}

@@ -318,19 +318,14 @@ std::vector<ViewStep> merge_file(const std::string& path) {
 }
 
 void check_geometry_kept() {
-  ::gmsh::vectorpair surfaces, shapes;
-  ::gmsh::model::getEntities(surfaces, 2);
-  const auto is_meshed = [](const std::pair<int, int>& surface) { return has_elements(2, surface.second); };
-  if (std::none_of(surfaces.begin(), surfaces.end(), is_meshed)) return;
-  ::gmsh::model::occ::getEntities(shapes, 2);
-  for (const auto& surface : surfaces) {
-    const bool discrete = is_discrete(2, surface.second);
-    // With another geometry's number, the surface that was there first stays.
-    const bool replaced = discrete && std::count(shapes.begin(), shapes.end(), surface);
-    if (replaced || (!discrete && !is_meshed(surface)))
-      throw InputError(fmt::format("surface {} is of a geometry without a mesh, and others come meshed; {}",
-                                   surface.second, kMeshItFirst));
-  }
+  // With another geometry's number, what was there first stays.
+  ::gmsh::vectorpair shapes;
+  ::gmsh::model::occ::getEntities(shapes);
+  for (const auto& [dim, tag] : shapes)
+    if (is_discrete(dim, tag))
+      throw InputError(fmt::format("the geometry's {} {} has the number of one that comes as a mesh; {}",
+                                   dim == 2 ? "surface" : dim == 1 ? "curve" : dim == 0 ? "point" : "volume", tag,
+                                   kMeshItFirst));
 }
 
 }  // namespace qmorph::adapter

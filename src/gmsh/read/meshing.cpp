@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -23,12 +24,19 @@ constexpr double kSimplePairing = 0;
 /// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly.
 constexpr double kBlossomPairing = 1;
 
-std::vector<int> all_surfaces() {
-  ::gmsh::vectorpair surfaces;
-  ::gmsh::model::getEntities(surfaces, 2);
-  std::vector<int> tags;
-  for (const auto& [dim, tag] : surfaces) tags.push_back(tag);
-  return tags;
+bool has_elements(int dim, int tag) {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, dim, tag);
+  return !types.empty();
+}
+
+bool is_discrete(int dim, int tag) { return entity_type(dim, tag).find("Discrete") != std::string::npos; }
+
+/// A discrete surface that CreateGeometry has given parameters has a range of them.
+bool has_parameters(int surface) {
+  std::vector<double> low, high;
+  ::gmsh::model::getParametrizationBounds(2, surface, low, high);
+  return low.size() == 2 && high.size() == 2 && low[0] < high[0] && low[1] < high[1];
 }
 
 /// Surfaces with `Recombine Surface`. No call of 4.8 tells, but the model written as a script does.
@@ -75,27 +83,51 @@ double area_or_one(int surface) {
   return log.errors.empty() ? area : 1;
 }
 
-bool has_elements(int dim, int tag) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags, nodes;
-  ::gmsh::model::mesh::getElements(types, tags, nodes, dim, tag);
-  return !types.empty();
-}
-
 /// The surface that Compound Surface makes hands its elements to those that it is made of, to narrow ones sometimes none.
 /// \return what is without elements for that reason
 std::vector<std::string> check_every_surface_has_elements() {
   bool compound = false;
   std::vector<int> bare;
-  for (int tag : all_surfaces()) {
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  for (const auto& [dim, tag] : surfaces) {
     if (has_elements(2, tag)) continue;
-    const bool discrete = entity_type(2, tag) == "Discrete surface";
+    const bool discrete = is_discrete(2, tag);
     compound = compound || discrete;
     if (!discrete && area_or_one(tag) > 0) bare.push_back(tag);
   }
   if (!bare.empty() && !compound) throw InputError(fmt::format("Gmsh made no element on surface {}", bare.front()));
   if (bare.empty()) return {};
   return {fmt::format("Gmsh gave no element of a compound to surfaces {}", fmt::join(bare, ", "))};
+}
+
+/// Where a surface gets a mesh beside one that has one, the curve between them must have its line elements: else it is
+/// meshed anew, and the two do not fit.
+void check_common_curves(const MeshingTask& task) {
+  std::map<int, int> of_kept;
+  const auto for_each_curve = [](int surface, const auto& take) {
+    ::gmsh::vectorpair curves;
+    ::gmsh::model::getBoundary({{2, surface}}, curves, false, false);
+    for (const auto& [dim, curve] : curves) take(curve);
+  };
+  for (int surface : task.kept)
+    for_each_curve(surface, [&](int curve) {
+      if (!has_elements(1, curve)) of_kept.emplace(curve, surface);
+    });
+  for (int surface : task.bare)
+    for_each_curve(surface, [&](int curve) {
+      if (const auto kept = of_kept.find(curve); kept != of_kept.end())
+        throw InputError(fmt::format("surface {} has a mesh, surface {} beside it has none, and the curve {} between "
+                                     "them has no line elements; mesh all of the geometry",
+                                     kept->second, surface, curve));
+    });
+}
+
+/// With Mesh.MeshOnlyEmpty, facets are meshed once they are gone: the geometry has a copy of them.
+void clear_facets(const std::vector<int>& surfaces) {
+  ::gmsh::vectorpair entities;
+  for (int surface : surfaces) entities.emplace_back(2, surface);
+  if (!entities.empty()) ::gmsh::model::mesh::clear(entities);
 }
 
 /// Requests for homology are answered after each dimension, and before there are elements with a complaint.
@@ -129,10 +161,32 @@ void make_meshable(int volume) {
 
 }  // namespace
 
-std::vector<std::string> mesh_surfaces() {
+MeshingTask find_meshing_task(bool taken_as_it_is) {
+  MeshingTask task;
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  for (const auto& [dim, tag] : surfaces) {
+    const bool meshed = has_elements(2, tag), discrete = is_discrete(2, tag);
+    if (discrete && meshed && !taken_as_it_is && has_parameters(tag))
+      task.facets.push_back(tag);
+    else if (meshed)
+      task.kept.push_back(tag), task.kept_on_geometry |= !discrete;
+    else if (!discrete)
+      task.bare.push_back(tag);
+  }
+  return task;
+}
+
+std::vector<std::string> mesh_surfaces(const MeshingTask& task) {
+  check_common_curves(task);
   const ScopedOption linear("Mesh.ElementOrder", 1);  // raised when the quads are there
+  const ScopedOption only_empty("Mesh.MeshOnlyEmpty", task.kept_on_geometry ? 1 : get_option("Mesh.MeshOnlyEmpty"));
+  if (task.kept_on_geometry) clear_facets(task.facets);
   const bool all = get_option("Mesh.RecombineAll") != 0 || get_option("Mesh.SubdivisionAlgorithm") == 1;
-  const std::vector<int> flagged = all ? all_surfaces() : flagged_surfaces();
+  // The model written as a script, which tells what is flagged, does not have facets.
+  std::vector<int> flagged = all ? task.bare : flagged_surfaces();
+  std::erase_if(flagged, [&](int tag) { return std::count(task.kept.begin(), task.kept.end(), tag) > 0; });
+  flagged.insert(flagged.end(), task.facets.begin(), task.facets.end());
 #if !QMORPH_GMSH_AT_LEAST(4, 9)
   // Frontal-Delaunay for quads crashes in a Gmsh without the ANN library, like Debian's, unless it needs no neighbours.
   if (get_option("Mesh.Algorithm") == 8) set_option("Mesh.CrossFieldClosestPoint", 0);

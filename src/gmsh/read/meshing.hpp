@@ -6,10 +6,23 @@
 
 namespace qmorph::adapter {
 
-/// Meshes the surfaces of the current model; see `open_model`.
+/// What of a model Gmsh would mesh, and what has elements already.
+struct MeshingTask {
+  std::vector<int> bare;    ///< surfaces of a geometry without elements
+  std::vector<int> facets;  ///< surfaces made of facets (CreateGeometry): their elements are the geometry
+  std::vector<int> kept;    ///< surfaces whose elements stay
+  bool kept_on_geometry = false;  ///< some of `kept` would be meshed again if Gmsh were not told
+
+  bool is_empty() const { return bare.empty() && facets.empty(); }
+};
+
+/// \param taken_as_it_is of a .msh file: facets with a geometry are its mesh
+MeshingTask find_meshing_task(bool taken_as_it_is);
+
+/// Meshes those surfaces of the current model; see `open_model`.
 /// \throws InputError with Gmsh's own words
 /// \return Gmsh's warnings
-std::vector<std::string> mesh_surfaces();
+std::vector<std::string> mesh_surfaces(const MeshingTask& task);
 
 /// Removes the elements of all volumes, so that their surfaces may become quads. \return true if there were any
 bool drop_volumes();

@@ -32,18 +32,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool surfaces_have_elements() {
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, 2);
-  return !types.empty();
-}
-
-bool has_surfaces() {
-  ::gmsh::vectorpair surfaces;
-  ::gmsh::model::getEntities(surfaces, 2);
-  return !surfaces.empty();
-}
-
 /// An entity in several physical groups, and how many. In files before MSH 4 each element has its own.
 std::optional<std::pair<std::pair<int, int>, std::size_t>> mixed_entity(const Msh2Origin& origin) {
   ::gmsh::vectorpair entities;
@@ -182,11 +170,12 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   opened.warnings = log.warnings;
   opened.open_seconds = seconds_since(start);
 
-  opened.had_mesh = opened.msh.version != 0 || surfaces_have_elements();
+  const MeshingTask task = find_meshing_task(opened.msh.version != 0);
+  opened.had_mesh = opened.msh.version != 0 || !task.kept.empty();
   if (opened.had_mesh) opened.views = read_views(merged_data);  // else they say what size elements are to have
-  if (opened.had_mesh || options.no_meshing || !has_surfaces()) return opened;
+  if (task.is_empty() || options.no_meshing) return opened;
   start = std::chrono::steady_clock::now();
-  const std::vector<std::string> warnings = mesh_surfaces();
+  const std::vector<std::string> warnings = mesh_surfaces(task);
   opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
   opened.mesh_seconds = seconds_since(start);
   return opened;

@@ -19,7 +19,7 @@ inline constexpr int kDefaultAlgorithm = 6;
 /// What `open_model` found.
 struct OpenedModel {
   MshHeader msh;                                 ///< version 0: not a .msh file
-  bool had_mesh = false;                         ///< the surfaces' elements come from the file, not from Gmsh's mesher
+  bool had_mesh = false;                         ///< surfaces have elements from a file, not from Gmsh's mesher
   Msh2Origin origin;                             ///< of a file of MSH 2 that had to be taken apart
   MeshData views;                                ///< data on the mesh of the file
   std::optional<std::vector<ViewStep>> carried;  ///< `views` on the quads, if that has been done already
@@ -35,8 +35,9 @@ struct OpenOptions {
   bool ignore_periodicity = false;  ///< of the file
 };
 
-/// Opens a file with Gmsh and, if its surfaces have no elements yet, meshes them: curves with an even number of
-/// segments first, so that surfaces can become quads without a triangle left; then surfaces with triangles.
+/// Opens a file with Gmsh and meshes surfaces that have a geometry and no elements yet, or whose geometry is made of facets:
+/// curves with an even number of segments first, so that surfaces can become quads without a triangle left; then surfaces
+/// with triangles. A .msh file with facets that have a geometry is taken as it is.
 /// Surfaces that the script wants transfinite or extruded *and* recombined come as quads.
 /// \throws InputError with Gmsh's own words if the file cannot be opened, understood, or meshed.
 OpenedModel open_model(const std::string& path, const OpenOptions& options = {});
