@@ -130,6 +130,11 @@ constexpr std::array<std::string_view, 21> kAlgorithms = {
     "frontal", "bamg",      "delquad", "pack",  "quadqs",  "frontopt2d", "initial2d",
     "del3d",   "front3d",   "netgen",  "mmg3d", "rtree3d", "hxt",        "initial3d"};
 
+/// What means something only where Gmsh makes elements.
+constexpr std::array<std::string_view, 17> kMeshing = {
+    "clmin",   "clmax",     "clscale",      "clextend", "clcurv", "algo",           "smooth",         "epslc1d", "swapangle",
+    "rand",    "aniso_max", "smooth_ratio", "edgelmin", "bgm",    "Mesh.Algorithm", "Mesh.Smoothing", "Mesh.RandomFactor"};
+
 bool is_number(const std::string& text) {
   double value = 0;
   return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
@@ -155,6 +160,12 @@ void check_gmsh_values(const GmshOptionRow& row, const std::vector<std::string>&
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::find(kAlgorithms.begin(), kAlgorithms.end(), name) == kAlgorithms.end())
     refuse("an algorithm of Gmsh (front2d, del2d, meshadapt, delquad, pack, ...)");
+}
+
+bool says_how_to_mesh(std::string_view name) {
+  const auto begins_with = [&](std::string_view start) { return name.substr(0, start.size()) == start; };
+  return std::find(kMeshing.begin(), kMeshing.end(), name) != kMeshing.end() || begins_with("Mesh.MeshSize") ||
+         begins_with("Mesh.CharacteristicLength");
 }
 
 std::string passed_gmsh_options() {

@@ -30,4 +30,7 @@ void check_gmsh_values(const GmshOptionRow& row, const std::vector<std::string>&
 /// All that are passed on, for the help: "-clextend, -clcurv, ..."
 std::string passed_gmsh_options();
 
+/// Whether an option ("clmax", "Mesh.Smoothing") matters only where Gmsh makes elements.
+bool says_how_to_mesh(std::string_view name);
+
 }  // namespace qmorph::cli

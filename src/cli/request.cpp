@@ -137,6 +137,7 @@ void note_gmsh_option(const GmshOptionRow& row, const std::vector<std::string>& 
   check_gmsh_values(row, values);
   request.gmsh_arguments.push_back(fmt::format("-{}", row.name));
   request.gmsh_arguments.insert(request.gmsh_arguments.end(), values.begin(), values.end());
+  if (says_how_to_mesh(row.name)) request.meshing_words.push_back(fmt::format("-{}", row.name));
   if (row.name == "algo") request.algorithm_chosen = true;
   if (row.name == "bgm") request.background = values[0];
   if (row.name == "ignore_periodicity") request.ignore_periodicity = true;
@@ -145,6 +146,7 @@ void note_gmsh_option(const GmshOptionRow& row, const std::vector<std::string>& 
   // Names without a dot are constants of the script.
   if (values[0].find('.') != std::string::npos) request.option_names.push_back(values[0]);
   if (row.name != "setnumber") return;
+  if (says_how_to_mesh(values[0])) request.meshing_words.push_back(values[0]);
   if (values[0] == "Mesh.Algorithm") request.algorithm_chosen = true;
   if (values[0] == "Mesh.ElementOrder") request.order_chosen = true;
   if (values[0] == "Mesh.MshFileVersion") request.msh_version = msh_version(values[1]);

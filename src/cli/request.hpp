@@ -45,6 +45,7 @@ struct Request {
   bool algorithm_chosen = false, order_chosen = false;
   std::optional<double> msh_version;        ///< of -setnumber Mesh.MshFileVersion
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary
+  std::vector<std::string> meshing_words;   ///< options that matter only where Gmsh meshes, as they were given
   std::vector<std::string> option_names;    ///< of Gmsh ("Mesh.Smoothing"), set by -setnumber and -setstring
   std::vector<std::string> gmsh_arguments;  ///< for Gmsh, in their order: the last one of a kind wins
 

@@ -60,6 +60,9 @@ struct ReaderError {
   std::vector<std::string> complaints;
 };
 
+/// What messages call it.
+std::string name_of_input(const Request& request) { return request.from_stdin ? "standard input" : request.input; }
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Also by different names, through links, and before there is such a file.
@@ -119,7 +122,8 @@ bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const
 /// In the reader's terms. \throws ReaderError
 void write_for_consumer(const Request& request, const adapter::OpenedModel& opened, adapter::StagedFile& file) {
   const adapter::Consumer& consumer = adapter::find_consumer(request.consumer);
-  const adapter::ConsumerMesh mesh = adapter::collect_for(consumer, opened.msh.version != 0);
+  const bool everything = opened.msh.version != 0 || adapter::get_option("Mesh.SaveAll") != 0;
+  const adapter::ConsumerMesh mesh = adapter::collect_for(consumer, everything);
   if (!mesh.complaints.empty()) throw ReaderError{mesh.complaints};
   if (consumer.format == "inp")
     adapter::write_inp_for(mesh, request.elements, file.path());
@@ -200,6 +204,23 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
   print_outcome(model, output, err);
 }
 
+/// Takes out of the figures what will not be in the file. \throws InputError if nothing is left
+void keep_written(const std::vector<int>& unwritten, const std::string& output, ModelReport& model) {
+  const auto is_unwritten = [&](const SurfaceReport& surface) {
+    return std::count(unwritten.begin(), unwritten.end(), surface.tag) > 0;
+  };
+  if (std::erase_if(model.surfaces, is_unwritten) == 0) return;
+  if (model.surfaces.empty())
+    throw InputError(
+        fmt::format("no surface is in a physical group, and there are groups: {} would have no quad; add Physical "
+                    "Surface, or -setnumber Mesh.SaveAll 1",
+                    output));
+  std::vector<int> measured;
+  for (const SurfaceReport& surface : model.surfaces)
+    if (surface.outcome != SurfaceOutcome::kLeft) measured.push_back(surface.tag);
+  model.total = measured.empty() ? Quality() : measure(measured).total;
+}
+
 /// The mesh and all the other files, or none. \param mesh null if it is in its place already
 void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others) {
   std::deque<adapter::StagedFile> staged;
@@ -252,6 +273,21 @@ std::vector<std::string> finish_model(const Request& request, adapter::OpenedMod
   return raised.bent;
 }
 
+/// What was asked for and makes no difference.
+void name_ignored_options(const Request& request, const adapter::OpenedModel& opened, std::ostream& err) {
+  const auto warn = [&](const std::string& what) { err << "warning: " << what << '\n'; };
+  if (!opened.meshed && request.dimension < 3 && !request.meshing_words.empty())
+    warn(fmt::format("Gmsh has nothing to mesh, and {} {} ignored: the elements of {} say how large the quads become",
+                     fmt::join(request.meshing_words, ", "), request.meshing_words.size() == 1 ? "is" : "are",
+                     name_of_input(request)));
+  if (adapter::get_option("Mesh.SubdivisionAlgorithm") != 0)
+    warn("Mesh.SubdivisionAlgorithm is ignored: triangles become quads without being divided");
+  const int order = static_cast<int>(adapter::get_option("Mesh.ElementOrder")), has = adapter::order_of_surfaces();
+  if (request.order_chosen && has > 1 && order > has)
+    warn(fmt::format("order {} is ignored: the elements of {} are of order {}, and their curved edges would be lost", order,
+                     name_of_input(request), has));
+}
+
 adapter::OpenedModel open(const Request& request, std::ostream& err) {
   if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
   if (!request.consumer.empty() && adapter::find_consumer(request.consumer).wants_incomplete)
@@ -262,6 +298,8 @@ adapter::OpenedModel open(const Request& request, std::ostream& err) {
   adapter::OpenedModel opened = adapter::open_model(
       request.input, {request.merged, request.background, request.no_meshing, request.ignore_periodicity});
   if (request.drop_volumes) adapter::drop_volumes();
+  if (request.verbosity >= 1) name_ignored_options(request, opened, err);
+  if (request.order_chosen) adapter::lower_model(static_cast<int>(adapter::get_option("Mesh.ElementOrder")));
   return opened;
 }
 
@@ -297,22 +335,24 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
   if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
-  const ModelReport model =
+  ModelReport model =
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   bar.reset();
   if (model.surfaces.empty()) {
-    err << "qmorph: nothing to convert: " << (request.from_stdin ? "standard input" : request.input)
-        << " has no surface with elements\n";
+    err << "qmorph: nothing to convert: " << name_of_input(request) << " has no surface with elements\n";
     return kNoSurface;
   }
+  const adapter::MshWish wish{request.msh_version, request.binary};
+  const std::vector<std::string> unwritten = adapter::describe_unwritten(plan, opened, wish);
+  // Volumes stand on all surfaces.
+  if (request.dimension < 3) keep_written(adapter::find_unwritten_surfaces(plan, opened, wish), plan.name, model);
 
   const std::vector<std::string> bent = finish_model(request, opened, session);
   if (is_as_it_was(request, plan, opened, model)) even.reset();  // OUT has the curves of IN
 
   const Clock::time_point write_start = Clock::now();
-  const adapter::MshWish wish{request.msh_version, request.binary};
   if (request.verbosity >= 1 && !is_as_it_was(request, plan, opened, model))
-    for (const std::string& lost : adapter::describe_unwritten(plan, opened, wish)) err << "warning: " << lost << '\n';
+    for (const std::string& lost : unwritten) err << "warning: " << lost << '\n';
   adapter::StagedFile file = adapter::stage(plan);
   const bool written = write(request, plan, opened, model, file);
   const int status = bent.empty() ? status_of(model) : kConvertedInPart;

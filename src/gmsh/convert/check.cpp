@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/describe.hpp"
 #include "gmsh/model/sides.hpp"
 
 namespace qmorph::adapter {
@@ -22,7 +23,7 @@ constexpr double kAreaTolerance = 1e-9;
 /// The sine of a corner of 180 degrees, up to rounding: more than that is a corner.
 constexpr double kLeastCornerSine = 1e-10;
 
-std::string at(const Eigen::Vector3d& p) { return fmt::format("at ({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
+std::string at(const Eigen::Vector3d& p) { return "at " + describe(p); }
 
 /// Twice the area vector of a polygon, seen from its first corner.
 template <std::size_t N>
@@ -148,8 +149,7 @@ std::string find_lost_edge(const Patch& patch, const QuadMesh& mesh, const std::
       if (std::string moved = find_moved_node(patch, mesh, rows, node); !moved.empty()) return moved;
     const Edge edge = moved_edge(rows, a, b);
     if (has(edges.outer, edge) || (!is_outer && has(edges.inner, edge))) return {};
-    return fmt::format("the {} edge from ({:g}, {:g}, {:g}) is gone", is_outer ? "boundary" : "constraint",
-                       patch.points[a].x(), patch.points[a].y(), patch.points[a].z());
+    return fmt::format("the {} edge from {} is gone", is_outer ? "boundary" : "constraint", describe(patch.points[a]));
   };
   for (const auto& [a, b] : outer)
     if (std::string defect = check(a, b, true); !defect.empty()) return defect;

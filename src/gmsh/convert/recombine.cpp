@@ -7,11 +7,14 @@
 #include <set>
 #include <utility>
 
+#include "geometry/describe.hpp"
 #include "gmsh/convert/check.hpp"
 #include "gmsh/convert/periodic.hpp"
 #include "gmsh/convert/replace.hpp"
+#include "gmsh/model/coincident_nodes.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
+#include "gmsh/model/overlap.hpp"
 #include "gmsh/model/patches.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
@@ -57,6 +60,21 @@ ReadModel read_model(ModelReport& report) {
   model.mesh = read_model_mesh();
   model.use = find_node_use(model.mesh, pinned_tags);
   return model;
+}
+
+/// Such a mesh looks right and falls apart, or lies twice in one place.
+void warn_of_loose_parts(const ReadModel& model, ModelReport& report) {
+  const CoincidentNodes found = find_coincident_nodes(model.mesh, model.use);
+  if (found.count)
+    report.warnings.push_back(fmt::format(
+        "{} node{} where another one is, as {}: the elements there are not joined. Unless that is meant, as in a crack, "
+        "Coherence; in the script of a geometry joins them, or Coherence Mesh; in one that merges the mesh",
+        found.count, found.count == 1 ? " lies" : "s lie", describe_node(model.mesh, found.first)));
+  if (const auto overlap = find_overlap(model.mesh))
+    report.warnings.push_back(fmt::format(
+        "surface {} lies over another one, or over itself, at {}: take one of the two out, or fuse them with Coherence; "
+        "in the script of the geometry",
+        overlap->surface, describe(overlap->where)));
 }
 
 void refuse_ghost_cells(const ModelMesh& mesh) {
@@ -121,6 +139,7 @@ class Run {
         model_(read_model(report)),
         fixed_edges_(model_.mesh, model_.use) {
     refuse_ghost_cells(model_.mesh);
+    if (task != Task::measure) warn_of_loose_parts(model_, report);
     links_ = read_periodic_links(model_.mesh);
     families_ = find_families(links_);
     common_ = find_common_elements(model_.mesh, model_.use);

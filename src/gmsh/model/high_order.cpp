@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "geometry/describe.hpp"
 #include "gmsh/convert/check.hpp"
 #include "gmsh/session/element_types.hpp"
 #include "qmorph/error.hpp"
@@ -226,8 +227,6 @@ bool is_bent(const std::vector<Eigen::Vector3d>& ahead, const std::vector<Eigen:
   return !(a.cross(b).dot(normal) > kLeastCornerSine * a.norm() * b.norm());
 }
 
-std::string describe(const Eigen::Vector3d& p) { return fmt::format("at ({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
-
 }  // namespace
 
 int order_of(const EntityMesh& surface) {
@@ -277,9 +276,9 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, co
     return element.size();
   };
   for (std::size_t q = part.patch.quads.size(); q < result.quads.size(); ++q)
-    if (const std::size_t k = bent(result.quads[q]); k < 4) return describe(result.points[result.quads[q][k]]);
+    if (const std::size_t k = bent(result.quads[q]); k < 4) return "at " + describe(result.points[result.quads[q][k]]);
   for (const auto& triangle : result.triangles)
-    if (const std::size_t k = bent(triangle); k < 3) return describe(result.points[triangle[k]]);
+    if (const std::size_t k = bent(triangle); k < 3) return "at " + describe(result.points[triangle[k]]);
   return {};
 }
 
@@ -300,7 +299,7 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& surface) {
       for (std::size_t k = 0; k < block.corners; ++k) {
         std::vector<Eigen::Vector3d> behind = side((k + block.corners - 1) % block.corners);
         std::reverse(behind.begin(), behind.end());
-        if (is_bent(side(k), behind, normal)) return describe(point(element[k]));
+        if (is_bent(side(k), behind, normal)) return "at " + describe(point(element[k]));
       }
     }
   return {};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/describe.hpp"
 #include "gmsh/session/compat.hpp"
 #include "qmorph/error.hpp"
 
@@ -176,8 +177,7 @@ bool is_misclassified(const ModelMesh& mesh, const NodeUse& use) {
 }
 
 std::string describe_node(const ModelMesh& mesh, Index row) {
-  const Eigen::Vector3d& p = mesh.points[row];
-  return fmt::format("node {} at ({:g}, {:g}, {:g})", mesh.tags[row], p.x(), p.y(), p.z());
+  return fmt::format("node {} at {}", mesh.tags[row], describe(mesh.points[row]));
 }
 
 }  // namespace qmorph::adapter

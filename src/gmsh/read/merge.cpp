@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/describe.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/model/periodic_links.hpp"
 #include "gmsh/read/groups.hpp"
@@ -276,9 +277,9 @@ void check_places(const std::string& path, const std::vector<Place>& places) {
       const Eigen::Vector3d p = Eigen::Vector3d::Map(&xyz[3 * i]);
       if (place.box.exteriorDistance(p) > kSlack * whole.diagonal().norm())
         throw InputError(
-            fmt::format("{} is not a mesh of the geometry that it is merged with: node {} at ({:g}, {:g}, {:g}) "
-                        "is not on the entity {} of dimension {}; {}",
-                        path, tags[i], p.x(), p.y(), p.z(), place.tag, place.dim, kMeshItFirst));
+            fmt::format("{} is not a mesh of the geometry that it is merged with: node {} at {} is not on the entity {} "
+                        "of dimension {}; {}",
+                        path, tags[i], describe(p), place.tag, place.dim, kMeshItFirst));
     }
   }
 }

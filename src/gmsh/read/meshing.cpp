@@ -238,14 +238,25 @@ std::vector<std::string> mesh_volumes(bool keep_numbers) {
   return log.warnings;
 }
 
+int order_of_surfaces() {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 2);
+  int order = 1;
+  for (const int type : types) order = std::max(order, element_type(type).order);
+  return order;
+}
+
+void lower_model(int order) {
+  if (order_of_surfaces() <= order) return;
+  const StageLog log = run_logged([&] { ::gmsh::model::mesh::setOrder(order); });
+  if (!log.errors.empty())
+    throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
+}
+
 RaisedModel raise_model() {
   RaisedModel raised;
   const int order = static_cast<int>(get_option("Mesh.ElementOrder"));
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, 2);
-  const bool is_linear =
-      std::all_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 1; });
-  if (order < 2 || !is_linear) return raised;
+  if (order < 2 || order_of_surfaces() > 1) return raised;
   const StageLog log = run_logged([&] {
     ::gmsh::model::mesh::setOrder(order);
     if (get_option("Mesh.HighOrderOptimize") != 0) ::gmsh::model::mesh::optimize("HighOrder");

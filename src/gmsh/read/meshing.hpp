@@ -41,6 +41,12 @@ struct RaisedModel {
   std::vector<std::string> bent;      ///< surfaces whose curved edges turn an element over, and where
 };
 
+/// The largest one of an element; 1 without any.
+int order_of_surfaces();
+
+/// Makes the mesh one of a lower order, if it is of a higher one. \throws InputError
+void lower_model(int order);
+
 /// Gives a linear model the order of Mesh.ElementOrder, with nodes on the geometry. Nothing happens to others.
 /// \throws InputError
 RaisedModel raise_model();

@@ -177,6 +177,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   start = std::chrono::steady_clock::now();
   const std::vector<std::string> warnings = mesh_surfaces(task);
   opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
+  opened.meshed = true;
   opened.mesh_seconds = seconds_since(start);
   return opened;
 }

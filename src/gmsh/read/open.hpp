@@ -20,6 +20,7 @@ inline constexpr int kDefaultAlgorithm = 6;
 struct OpenedModel {
   MshHeader msh;                                 ///< version 0: not a .msh file
   bool had_mesh = false;                         ///< surfaces have elements from a file, not from Gmsh's mesher
+  bool meshed = false;                           ///< by Gmsh, something
   Msh2Origin origin;                             ///< of a file of MSH 2 that had to be taken apart
   MeshData views;                                ///< data on the mesh of the file
   std::optional<std::vector<ViewStep>> carried;  ///< `views` on the quads, if that has been done already

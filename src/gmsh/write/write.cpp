@@ -139,6 +139,15 @@ bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
   return version == 2.2 && (opened.msh.is_2() || !opened.views.steps.empty());
 }
 
+/// What is in no physical group is left out if there are groups; but a mesh that is there already is expected to come out whole,
+/// and MSH has room for it.
+bool leaves_out_ungrouped(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
+  if (!has_groups() || get_option("Mesh.SaveAll") != 0) return false;
+  const bool keeps_all = plan.for_reader || plan.format.is_msh;
+  if (keeps_all && opened.msh.version != 0) return false;
+  return plan.for_reader || !plan.format.is_msh || !keeps_tags_of_msh2(choose_version(plan.format, opened, wish), opened);
+}
+
 bool holds_views(double version) { return version == 2.2 || version >= 4; }
 
 void write_msh(const std::string& path, double version, bool everything) {
@@ -216,15 +225,19 @@ std::vector<std::string> describe_unwritten(const OutputPlan& plan, const Opened
         fmt::format("data on nodes and elements (views) is not written to {}; MSH 2.2 and 4 keep it, "
                     "without --for",
                     plan.name));
-  if (opened.msh.version == 0 || plan.format.is_msh || !has_groups() || get_option("Mesh.SaveAll") != 0) return lines;
-  std::string surfaces;
-  for (const auto& [dim, tag] : ungrouped_entities())
-    if (dim == 2) surfaces += fmt::format("{}{}", surfaces.empty() ? "" : ", ", tag);
-  if (!surfaces.empty())
+  if (const std::vector<int> surfaces = find_unwritten_surfaces(plan, opened, wish); !surfaces.empty())
     lines.push_back(
         fmt::format("surfaces in no physical group are not written to {}: {} (-setnumber Mesh.SaveAll 1 writes all)",
-                    plan.name, surfaces));
+                    plan.name, fmt::join(surfaces, ", ")));
   return lines;
+}
+
+std::vector<int> find_unwritten_surfaces(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
+  std::vector<int> surfaces;
+  if (!leaves_out_ungrouped(plan, opened, wish)) return surfaces;
+  for (const auto& [dim, tag] : ungrouped_entities())
+    if (dim == 2) surfaces.push_back(tag);
+  return surfaces;
 }
 
 void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file) {
@@ -236,7 +249,7 @@ void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWis
     if (keeps_tags_of_msh2(version, opened))
       write_msh2(file.path(), binary, opened.origin);
     else if (plan.format.is_msh)
-      write_msh(file.path(), version, opened.msh.version != 0);
+      write_msh(file.path(), version, opened.msh.version != 0 || get_option("Mesh.SaveAll") != 0);
     else
       ::gmsh::write(file.path());
   });

@@ -49,8 +49,12 @@ void check_format(const OutputPlan& plan);
 /// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
 void renumber();
 
-/// A mesh that is there already is expected to come out whole, and formats other than MSH have only what is in groups
-/// if there are any, and no data on nodes and elements. \return what to say about it, each in a line
+/// Surfaces with elements that the file will not have, by Gmsh's rule: what is in no physical group is left out if there are
+/// groups. To be asked before partitions are made.
+std::vector<int> find_unwritten_surfaces(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
+
+/// Those surfaces, and data on nodes and elements for which formats other than MSH have no place. \return what to say about
+/// it, each in a line
 std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
 /// Writes the current model, whole or not at all. What came from a .msh file goes out in the same version and
