@@ -1,29 +1,31 @@
 #include "cli/run.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <iterator>
-#include <map>
+#include <memory>
 #include <new>
 #include <optional>
 #include <utility>
 
 #include "cli/check.hpp"
+#include "cli/error_stream.hpp"
+#include "cli/outcome.hpp"
+#include "cli/places.hpp"
 #include "cli/progress.hpp"
+#include "cli/reading_limits.hpp"
 #include "cli/request.hpp"
 #include "cli/scene.hpp"
 #include "cli/side_files.hpp"
+#include "cli/slate.hpp"
+#include "cli/standard_input.hpp"
 #include "cli/standard_streams.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/open.hpp"
@@ -42,68 +44,14 @@
 namespace qmorph::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 using Clock = std::chrono::steady_clock;
-
-/// What Gmsh is told by the name of a file: meshes, STEP, BREP and scripts begin differently.
-std::string extension_of(const std::string& text) {
-  const std::string head = text.substr(0, 4096);
-  const auto has = [&](const char* word) { return head.find(word) != std::string::npos; };
-  if (has("$MeshFormat") || has("$NOD")) return ".msh";
-  if (has("ISO-10303-21")) return ".step";
-  return has("DBRep_DrawableShape") ? ".brep" : ".geo";
-}
 
 /// What a reader would not take, and why.
 struct ReaderError {
   std::vector<std::string> complaints;
 };
 
-/// What messages call it.
-std::string name_of_input(const Request& request) { return request.from_stdin ? "standard input" : request.input; }
-
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Also by different names, through links, and before there is such a file.
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  const fs::path first = fs::weakly_canonical(fs::absolute(a, error), error);
-  const fs::path second = fs::weakly_canonical(fs::absolute(b, error), error);
-  return !first.empty() && first == second;
-}
-
-/// Refuses what would fail in the end before hours go into a mesh.
-adapter::OutputPlan check_places(const Request& request) {
-  adapter::check_readable(request.input);
-  for (const std::string& file : request.merged) adapter::check_readable(file);
-  std::vector<std::pair<std::string, std::string>> taken{{request.input, "the input"}};
-  for (const auto& [option, path] : side_files(request)) {
-    for (const auto& [other, what] : taken)
-      if (is_same_file(path, other))
-        throw UsageError(fmt::format("{} {} is {}; give it a file of its own", option, path, what));
-    const adapter::StagedFile probe(path);
-    taken.emplace_back(path, fmt::format("the file of {}", option));
-  }
-  std::string format = request.format;
-  if (!request.consumer.empty()) {
-    const std::string_view wanted = adapter::find_consumer(request.consumer).format;
-    if (!adapter::is_element_family(request.elements))
-      throw UsageError(fmt::format("--elements: '{}' is none of CPS, CPE, CAX, S, M3D, with or without an R behind it",
-                                   request.elements));
-    if (!format.empty() && format != wanted)
-      throw UsageError(fmt::format("--for {} writes the format {}, not {}", request.consumer, wanted, format));
-    format = wanted;
-  }
-  adapter::OutputPlan plan = adapter::plan_output(request.input, request.output, format);
-  plan.for_reader = !request.consumer.empty();
-  if (request.to_stdout) plan.name = "standard output";
-  for (const auto& [option, path] : side_files(request))
-    if (is_same_file(path, plan.path))
-      throw UsageError(fmt::format("{} {} is the output; give it a file of its own", option, path));
-  return plan;
-}
 
 int status_of(const ModelReport& model) {
   return model.count(SurfaceOutcome::kLeft) ? kConvertedInPart : kAllConverted;
@@ -147,63 +95,6 @@ bool write(const Request& request, const adapter::OutputPlan& plan, const adapte
   return true;
 }
 
-/// What the caller must know in any case, in one line.
-void print_outcome(const ModelReport& model, const std::string& output, std::ostream& err) {
-  std::string left;
-  for (const SurfaceReport& surface : model.surfaces)
-    if (surface.outcome == SurfaceOutcome::kLeft) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
-  if (!left.empty())
-    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::kLeft),
-                       model.surfaces.size(), left);
-  else if (model.count(SurfaceOutcome::kConverted) == 0)
-    err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has the mesh as it was\n";
-}
-
-/// What parity forces is no failure, and there is something to do about it.
-void print_triangles(const Request& request, const ModelReport& model, std::ostream& err) {
-  if (request.all_quad || request.cleanup_only) return;
-  std::size_t triangles = 0;
-  std::vector<int> surfaces;
-  for (const SurfaceReport& surface : model.surfaces) {
-    if (surface.outcome != SurfaceOutcome::kConverted || surface.triangles_out == 0) continue;
-    triangles += surface.triangles_out;
-    surfaces.push_back(surface.tag);
-  }
-  if (triangles)
-    err << fmt::format("{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
-                       "leaves none\n",
-                       triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s",
-                       fmt::join(surfaces, ", "));
-}
-
-/// Gmsh may say one thing about each of a million nodes.
-void print_once(std::string_view prefix, const std::vector<std::string>& lines, std::ostream& err) {
-  std::map<std::string, std::size_t> count;
-  for (const std::string& line : lines) ++count[line];
-  for (const std::string& line : lines) {
-    const std::size_t times = std::exchange(count[line], 0);
-    if (times) err << prefix << line << (times > 1 ? fmt::format(" ({} times)", times) : "") << '\n';
-  }
-}
-
-/// \param output what to call it
-void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,
-                   const report::RunFacts& facts, const std::string& output, std::ostream& err) {
-  if (request.verbosity >= 2) print_once("Gmsh: ", opened.warnings, err);
-  if (request.verbosity >= 1) {
-    for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
-    for (const SurfaceReport& surface : model.surfaces) {
-      err << report::surface_line(surface) << '\n';
-      for (const std::string& warning : surface.warnings)
-        err << "warning: surface " << surface.tag << ": " << warning << '\n';
-    }
-    if (facts.even) err << report::even_line(*facts.even) << '\n';
-    print_triangles(request, model, err);
-    err << report::total_line(model, output, facts.total_seconds) << '\n';
-  }
-  print_outcome(model, output, err);
-}
-
 /// Takes out of the figures what will not be in the file. \throws InputError if nothing is left
 void keep_written(const std::vector<int>& unwritten, const std::string& output, ModelReport& model) {
   const auto is_unwritten = [&](const SurfaceReport& surface) {
@@ -222,10 +113,10 @@ void keep_written(const std::vector<int>& unwritten, const std::string& output, 
 }
 
 /// The mesh and all the other files, or none. \param mesh null if it is in its place already
-void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others) {
+void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others, adapter::TemporaryNames* names) {
   std::deque<adapter::StagedFile> staged;
   for (const SideFile& other : others) {
-    staged.emplace_back(other.path).write_text(other.text);
+    staged.emplace_back(other.path, std::string(), names).write_text(other.text);
     staged.back().prepare();
   }
   if (mesh) mesh->commit();
@@ -273,65 +164,90 @@ std::vector<std::string> finish_model(const Request& request, adapter::OpenedMod
   return raised.bent;
 }
 
-/// What was asked for and makes no difference.
-void name_ignored_options(const Request& request, const adapter::OpenedModel& opened, std::ostream& err) {
-  const auto warn = [&](const std::string& what) { err << "warning: " << what << '\n'; };
-  if (!opened.meshed && request.dimension < 3 && !request.meshing_words.empty())
-    warn(fmt::format("Gmsh has nothing to mesh, and {} {} ignored: the elements of {} say how large the quads become",
-                     fmt::join(request.meshing_words, ", "), request.meshing_words.size() == 1 ? "is" : "are",
-                     name_of_input(request)));
-  if (adapter::get_option("Mesh.SubdivisionAlgorithm") != 0)
-    warn("Mesh.SubdivisionAlgorithm is ignored: triangles become quads without being divided");
-  const int order = static_cast<int>(adapter::get_option("Mesh.ElementOrder")), has = adapter::order_of_surfaces();
-  if (request.order_chosen && has > 1 && order > has)
-    warn(fmt::format("order {} is ignored: the elements of {} are of order {}, and their curved edges would be lost", order,
-                     name_of_input(request), has));
+/// One call of the command, as it goes through the functions below.
+struct Call {
+  const Request& request;
+  const std::vector<std::string>& arguments;
+  std::ostream& out;
+  ErrorStream& err;
+  const Process& process;
+
+  /// What to say if this process dies from here on.
+  void begin(ExitStatus status, const std::string& trouble) const {
+    if (process.slate) process.slate->begin(status, trouble);
+  }
+  adapter::TemporaryNames* names() const { return process.slate ? &process.slate->files : nullptr; }
+};
+
+/// Opens the input and what is merged with it, and meshes it.
+adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) {
+  const std::string name = name_of_input(call.request);
+  std::optional<ReadingLimits> limits;
+  std::vector<std::string> files = options.merged;
+  files.push_back(call.request.input);
+  if (call.process.slate) limits.emplace(files);
+  call.begin(kBadInput, name + " cannot be read: Gmsh crashed");
+  options.when_read = [&] {
+    limits.reset();
+    call.begin(kBadInput, name + " cannot be meshed: Gmsh crashed");
+  };
+  adapter::OpenedModel opened = adapter::open_model(call.request.input, options);
+  call.begin(kBadInput, "a crash while qmorph worked on " + name);
+  return opened;
 }
 
-adapter::OpenedModel open(const Request& request, std::ostream& err) {
+adapter::OpenedModel open(const Call& call) {
+  const Request& request = call.request;
   if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
   if (!request.consumer.empty() && adapter::find_consumer(request.consumer).wants_incomplete)
     adapter::set_option("Mesh.SecondOrderIncomplete", 1);
   for (const std::string& name : request.option_names)
     if (!adapter::option_exists(name) && request.verbosity >= 1)
-      err << "warning: this Gmsh has no option " << name << '\n';
-  adapter::OpenedModel opened = adapter::open_model(
-      request.input, {request.merged, request.background, request.no_meshing, request.ignore_periodicity});
+      call.err << "warning: this Gmsh has no option " << name << '\n';
+  adapter::OpenedModel opened = open_input(call, {.merged = request.merged,
+                                                  .background = request.background,
+                                                  .no_meshing = request.no_meshing,
+                                                  .ignore_periodicity = request.ignore_periodicity});
   if (request.drop_volumes) adapter::drop_volumes();
-  if (request.verbosity >= 1) name_ignored_options(request, opened, err);
+  if (request.verbosity >= 1) name_ignored_options(request, opened, call.err);
   if (request.order_chosen) adapter::lower_model(static_cast<int>(adapter::get_option("Mesh.ElementOrder")));
   return opened;
 }
 
-int check_file(const Request& request, std::ostream& out, std::ostream& err) {
+int check_file(const Call& call) {
+  const Request& request = call.request;
   adapter::check_readable(request.input);
   ModelReport model;
   {
     const StdoutAsStderr redirected;
-    const adapter::Session session(request.gmsh_arguments);
-    adapter::open_model(request.input, {request.merged, {}, true, request.ignore_periodicity});
+    adapter::Session session(request.gmsh_arguments);
+    if (call.process.slate) session.leave();
+    open_input(call, {.merged = request.merged, .no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
     model = measure(request.surfaces);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
-  if (request.verbosity >= 1) answer(report::check_line(model) + '\n', out);
+  if (request.verbosity >= 1) answer(report::check_line(model) + '\n', call.out);
   const std::vector<std::string> reasons = find_reasons(model, request.thresholds);
-  for (const std::string& reason : reasons) err << "qmorph: " << reason << '\n';
+  for (const std::string& reason : reasons) call.err << "qmorph: " << reason << '\n';
   return reasons.empty() ? kAllConverted : kNotGoodEnough;
 }
 
-int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
+int convert_file(const Call& call) {
+  const Request& request = call.request;
   const Clock::time_point start = Clock::now();
   Options options = engine_options(request);
   set_what_to_keep(request, options);
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   adapter::Session session(request.gmsh_arguments);
-  adapter::check_format(plan);
-  adapter::OpenedModel opened = open(request, err);
+  if (call.process.slate) session.leave();
+  const std::string cannot_write = fmt::format("cannot write {}: Gmsh crashed", plan.name);
+  call.begin(kCannotWrite, cannot_write);
+  adapter::check_format(plan, call.names());
+  adapter::OpenedModel opened = open(call);
 
-  const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
   std::optional<Progress> bar;
-  if (watched) options.progress = std::ref(bar.emplace(err));
+  if (request.verbosity >= 1 && call.process.err_is_terminal) options.progress = std::ref(bar.emplace(call.err));
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
   if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
@@ -339,7 +255,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
       request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
   bar.reset();
   if (model.surfaces.empty()) {
-    err << "qmorph: nothing to convert: " << name_of_input(request) << " has no surface with elements\n";
+    call.err << "qmorph: nothing to convert: " << name_of_input(request) << " has no surface with elements\n";
     return kNoSurface;
   }
   const adapter::MshWish wish{request.msh_version, request.binary};
@@ -352,12 +268,14 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
 
   const Clock::time_point write_start = Clock::now();
   if (request.verbosity >= 1 && !is_as_it_was(request, plan, opened, model))
-    for (const std::string& lost : unwritten) err << "warning: " << lost << '\n';
-  adapter::StagedFile file = adapter::stage(plan);
+    for (const std::string& lost : unwritten) call.err << "warning: " << lost << '\n';
+  call.begin(kCannotWrite, cannot_write);
+  adapter::StagedFile file = adapter::stage(plan, call.names());
+  call.err.call(file.path(), plan.name);
   const bool written = write(request, plan, opened, model, file);
   const int status = bent.empty() ? status_of(model) : kConvertedInPart;
-  report::RunFacts facts{request.from_stdin ? "-" : request.input, request.to_stdout ? "-" : plan.path, arguments,
-                         status, even};
+  report::RunFacts facts{request.from_stdin ? "-" : request.input, request.to_stdout ? "-" : plan.path,
+                         call.arguments, status, even};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
@@ -369,32 +287,35 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
       throw UsageError("--views: the standard output has no file beside it; write MSH 4, or give -o a name");
     std::move(views.begin(), views.end(), std::back_inserter(others));
   }
-  commit(written ? &file : nullptr, others);
-  print_summary(request, opened, model, facts, plan.name, err);
-  for (const std::string& what : bent) err << "qmorph: " << what << '\n';
+  commit(written ? &file : nullptr, others, call.names());
+  print_summary(request, opened, model, facts, plan.name, call.err);
+  for (const std::string& what : bent) call.err << "qmorph: " << what << '\n';
   if (request.view)
     if (const std::string problem = adapter::show_in_window(plan.path); !problem.empty())
-      err << "qmorph: --view: " << problem << '\n';
+      call.err << "qmorph: --view: " << problem << '\n';
   return facts.exit_status;
 }
 
 /// Standard input and output have names as files for as long as it takes.
-int run_with_streams(Request request, const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) {
-  std::optional<adapter::ScratchFile> input, output;
+int run_with_streams(Request request, const std::vector<std::string>& arguments, std::ostream& out, ErrorStream& err,
+                     const Process& process) {
+  std::unique_ptr<adapter::ScratchFile> input;
+  std::optional<adapter::ScratchFile> output;
   request.from_stdin = request.input == "-";
   request.to_stdout = request.output == "-" || (request.output.empty() && request.from_stdin);
   if (request.from_stdin) {
-    const std::string text(std::istreambuf_iterator<char>(std::cin), {});
-    input.emplace(extension_of(text));
-    std::ofstream(input->path(), std::ios::binary) << text;
+    input = read_standard_input(std::cin);
     request.input = input->path();
+    err.call(request.input, "standard input");
   }
-  if (request.check) return check_file(request, out, err);
-  if (!request.to_stdout) return convert_file(request, arguments, err);
+  const Call call{request, arguments, out, err, process};
+  if (request.check) return check_file(call);
+  if (!request.to_stdout) return convert_file(call);
   output.emplace(".msh");
   request.output = output->path();
+  err.call(request.output, "standard output");
   if (request.format.empty() && request.consumer.empty()) request.format = "msh";
-  const int status = convert_file(request, arguments, err);
+  const int status = convert_file(call);
   answer_with_file(output->path(), out);
   return status;
 }
@@ -404,32 +325,45 @@ int fail(int status, std::string_view what, std::ostream& err) {
   return status;
 }
 
-}  // namespace
-
-int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err) try {
-  hold_standard_streams();
+/// \throws what run() turns into an exit status
+int run_request(const std::vector<std::string>& arguments, std::ostream& out, ErrorStream& err,
+                const Process& process) {
   const Request request = parse(arguments);
   if (request.help) answer(help_text(), out);
   if (request.version) answer(fmt::format("qmorph {}\n", kVersion), out);
   if (request.help || request.version) return kAllConverted;
-  return run_with_streams(request, arguments, out, err);
-} catch (const ReaderError& error) {
-  for (const std::string& complaint : error.complaints) fail(kNotGoodEnough, complaint, err);
-  return kNotGoodEnough;
-} catch (const UsageError& error) {
-  return fail(kBadUsage, error.what(), err);
-} catch (const OutputError& error) {
-  return fail(kCannotWrite, error.what(), err);
-} catch (const Error& error) {
-  return fail(kBadInput, error.what(), err);
-} catch (const std::bad_alloc&) {
-  return fail(kBadInput, "not enough memory", err);
-} catch (const std::exception& error) {
-  return fail(kBadInput, fmt::format("a mistake of qmorph: {}", error.what()), err);
-} catch (const std::string& error) {  // Gmsh before 4.10
-  return fail(kBadInput, fmt::format("Gmsh: {}", error), err);
-} catch (...) {
-  return fail(kBadInput, "a mistake of qmorph", err);
+  const int status = run_with_streams(request, arguments, out, err, process);
+  // Where it went wrong there is a line that says it, and nobody wants more.
+  if (process.slate) process.slate->shows_foreign_words = request.verbosity >= 2 && status <= kConvertedInPart;
+  return status;
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err_stream,
+        const Process& process) {
+  ErrorStream err(err_stream);
+  try {
+    hold_standard_streams();
+    return run_request(arguments, out, err, process);
+  } catch (const ReaderError& error) {
+    for (const std::string& complaint : error.complaints) fail(kNotGoodEnough, complaint, err);
+    return kNotGoodEnough;
+  } catch (const UsageError& error) {
+    return fail(kBadUsage, error.what(), err);
+  } catch (const OutputError& error) {
+    return fail(kCannotWrite, error.what(), err);
+  } catch (const Error& error) {
+    return fail(kBadInput, error.what(), err);
+  } catch (const std::bad_alloc&) {
+    return fail(kBadInput, "not enough memory", err);
+  } catch (const std::exception& error) {
+    return fail(kBadInput, fmt::format("a mistake of qmorph: {}", error.what()), err);
+  } catch (const std::string& error) {  // Gmsh before 4.10
+    return fail(kBadInput, fmt::format("Gmsh: {}", error), err);
+  } catch (...) {
+    return fail(kBadInput, "a mistake of qmorph", err);
+  }
 }
 
 }  // namespace qmorph::cli

@@ -18,8 +18,17 @@ enum ExitStatus : int {
   kNotGoodEnough = 6,
 };
 
+class Slate;
+
+/// What surrounds a run.
+struct Process {
+  bool err_is_terminal = false;
+  /// Where it says what it does, for the process that waits; this one ends with the run. May be null.
+  Slate* slate = nullptr;
+};
+
 /// Runs the command. Answers to --help, --version and --check go to `out`, and the mesh if that is asked for;
 /// everything else to `err`. Throws nothing.
-int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err);
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err, const Process& process = {});
 
 }  // namespace qmorph::cli

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/describe.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <locale>
 #include <sstream>
 
 namespace qmorph {
@@ -13,7 +16,7 @@ std::string describe(const Eigen::Vector3d& p) {
   const double last_place = largest < 1 ? largest * std::pow(10, -kDigits) : std::pow(10, -kDigits);
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text.precision(kDigits + places);
+  text.precision(std::min(kDigits + places, std::numeric_limits<double>::max_digits10));
   const auto shown = [&](double x) { return std::abs(x) < last_place / 2 ? 0.0 : x; };
   text << '(' << shown(p.x()) << ", " << shown(p.y()) << ", " << shown(p.z()) << ')';
   return text.str();

@@ -128,6 +128,17 @@ StageLog open_msh2(const std::string& path, bool binary, Msh2Origin& origin) {
   return open_file(origin.empty() ? source : rewritten.path());
 }
 
+/// Most of Gmsh's readers say nothing where they find nothing.
+void check_not_empty(const std::string& path) {
+  if (!is_mesh_file(path) && !is_cad_file(path)) return;  // a script may be about something else
+  ::gmsh::vectorpair entities;
+  std::vector<int> views;
+  ::gmsh::model::getEntities(entities);
+  ::gmsh::view::getTags(views);
+  if (entities.empty() && views.empty())
+    throw InputError(fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
+}
+
 /// What -bgm does in Gmsh's own command.
 void set_background(const std::string& path) {
   check_readable(path);
@@ -167,8 +178,10 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   add_groups(opened.origin);
   refuse_mixed_groups(opened.msh, opened.origin);
   for (const GroupName& group : contents.odd_names) set_group_name(group);
+  if (opened.msh.version == 0) check_not_empty(path);
   opened.warnings = log.warnings;
   opened.open_seconds = seconds_since(start);
+  if (options.when_read) options.when_read();
 
   const MeshingTask task = find_meshing_task(opened.msh.version != 0);
   opened.had_mesh = opened.msh.version != 0 || !task.kept.empty();

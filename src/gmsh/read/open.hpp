@@ -1,6 +1,7 @@
 #pragma once
 /// From a file to a model with triangles.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,10 +31,11 @@ struct OpenedModel {
 
 /// How to open.
 struct OpenOptions {
-  std::vector<std::string> merged;  ///< further files, merged after the first and before anything is meshed
-  std::string background;           ///< file with a view that says what sizes elements have, or empty
+  std::vector<std::string> merged{};  ///< further files, merged after the first and before anything is meshed
+  std::string background{};           ///< file with a view that says what sizes elements have, or empty
   bool no_meshing = false;          ///< surfaces without elements stay so
   bool ignore_periodicity = false;  ///< of the file
+  std::function<void()> when_read{};  ///< called once all is read and before Gmsh meshes; may be empty
 };
 
 /// Opens a file with Gmsh and meshes surfaces that have a geometry and no elements yet, or whose geometry is made of facets:

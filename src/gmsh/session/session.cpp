@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "gmsh/session/compat.hpp"
@@ -59,6 +60,8 @@ StageLog run_logged(const std::function<void()>& stage) {
     ours = std::current_exception();
   } catch (const std::string& error) {
     log.errors.push_back(error);
+  } catch (const std::bad_alloc&) {
+    log.errors.push_back("there is not enough memory for what it says");
   } catch (const std::exception& error) {
     log.errors.push_back(error.what());
   }

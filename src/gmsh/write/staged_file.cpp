@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "qmorph/error.hpp"
 
@@ -52,27 +53,60 @@ bool disk_is_full(const std::string& path) {
   return ::statvfs(path.c_str(), &room) == 0 && room.f_blocks > 0 && room.f_bavail * room.f_frsize < kLeastRoom;
 }
 
-}  // namespace
+/// Whoever shares the folder, from whatever machine or container: process ids are no names.
+std::string random_name() {
+  std::random_device device;
+  return fmt::format(".qmorph-tmp-{:08x}{:08x}", device(), device());
+}
 
-StagedFile::StagedFile(const std::string& target, const std::string& extension) {
+/// \return what the target is, through all links
+fs::path checked_place(const std::string& target) {
   const fs::path resolved = resolve(target);
-  target_ = resolved.string();
   std::error_code error;
   const fs::file_status status = fs::status(resolved, error);
   if (fs::is_directory(status)) fail(target, "it is a directory");
   if (fs::exists(status) && !fs::is_regular_file(status)) fail(target, "it is not a regular file");
-  if (fs::exists(status) && ::access(target_.c_str(), W_OK) != 0) fail(target, std::strerror(errno));
+  if (fs::exists(status) && ::access(resolved.c_str(), W_OK) != 0) fail(target, std::strerror(errno));
   const fs::path directory = resolved.parent_path();
   if (!fs::is_directory(directory, error)) fail(target, "there is no directory " + directory.string());
   if (::access(directory.c_str(), W_OK | X_OK) != 0) fail(target, std::strerror(errno));
-  path_ = (directory / fmt::format(".qmorph-tmp-{}-{}{}", ::getpid(), resolved.stem().string(),
-                                   extension.empty() ? resolved.extension().string() : extension))
-              .string();
+  const long longest = ::pathconf(directory.c_str(), _PC_NAME_MAX);
+  if (longest > 0 && resolved.filename().string().size() > static_cast<std::size_t>(longest))
+    fail(target, std::strerror(ENAMETOOLONG));
+  return resolved;
+}
+
+}  // namespace
+
+void check_place(const std::string& target) { checked_place(target); }
+
+StagedFile::StagedFile(const std::string& target, const std::string& extension, TemporaryNames* names) : names_(names) {
+  const fs::path resolved = checked_place(target);
+  target_ = resolved.string();
+  for (int file = -1; file < 0;) {
+    path_ = (resolved.parent_path() / (random_name() + extension)).string();
+    if (names_) names_->add(path_);
+    file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);  // less what the umask says
+    if (file >= 0) {
+      ::close(file);
+    } else {
+      const int reason = errno;
+      forget();
+      if (reason != EEXIST) fail(target, std::strerror(reason));
+    }
+  }
 }
 
 StagedFile::~StagedFile() {
+  if (path_.empty()) return;
   std::error_code ignored;
-  if (!path_.empty()) fs::remove(path_, ignored);
+  fs::remove(path_, ignored);
+  forget();
+}
+
+void StagedFile::forget() {
+  if (names_) names_->drop(path_);
+  path_.clear();
 }
 
 void StagedFile::prepare() {
@@ -90,7 +124,7 @@ void StagedFile::commit() {
   std::error_code error;
   fs::rename(path_, target_, error);
   if (error) fail(target_, error.message());
-  path_.clear();
+  forget();
 }
 
 void StagedFile::write_text(const std::string& text) {

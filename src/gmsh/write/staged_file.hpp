@@ -3,14 +3,22 @@
 
 #include <string>
 
+#include "gmsh/write/temporary_names.hpp"
+
 namespace qmorph::adapter {
+
+/// Looks whether a file can be put there. \throws OutputError if the target is no regular file, or its directory is missing or not
+/// writable
+void check_place(const std::string& target);
 
 /// A temporary file beside the file that it will become. What is not committed is removed.
 class StagedFile {
  public:
-  /// \param extension of the temporary file, since Gmsh chooses the format by it; the target's if empty
-  /// \throws OutputError if the target is no regular file, or its directory is missing or not writable
-  explicit StagedFile(const std::string& target, const std::string& extension = {});
+  /// Makes the file, under a name that nobody else has.
+  /// \param extension of the temporary file, since Gmsh chooses the format by it
+  /// \param names where its name stands as long as it is there; may be null
+  /// \throws OutputError as check_place()
+  explicit StagedFile(const std::string& target, const std::string& extension = {}, TemporaryNames* names = nullptr);
   ~StagedFile();
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
@@ -26,7 +34,10 @@ class StagedFile {
   void commit();
 
  private:
+  void forget();
+
   std::string target_, path_;
+  TemporaryNames* names_;
   bool prepared_ = false;
 };
 

@@ -191,16 +191,16 @@ OutputPlan plan_output(const std::string& input, const std::string& output, cons
     plan.path = fs::path(input).replace_extension(default_extension(plan.format)).string();
   }
   plan.name = plan.path;
-  const StagedFile probe(plan.path, plan.format.extension);  // says at once if nothing can be written there
+  check_place(plan.path);
   return plan;
 }
 
-StagedFile stage(const OutputPlan& plan) {
-  return StagedFile(plan.path, plan.format.is_msh ? ".msh" : plan.format.extension);
+StagedFile stage(const OutputPlan& plan, TemporaryNames* names) {
+  return StagedFile(plan.path, plan.format.is_msh ? ".msh" : plan.format.extension, names);
 }
 
-void check_format(const OutputPlan& plan) {
-  const StagedFile probe = stage(plan);
+void check_format(const OutputPlan& plan, TemporaryNames* names) {
+  const StagedFile probe = stage(plan, names);
   const StageLog log = run_logged([&] { ::gmsh::write(probe.path()); });
   for (const std::string& error : log.errors)
     if (error.find("nknown") != std::string::npos || error.find("ompiled without") != std::string::npos ||

@@ -39,12 +39,12 @@ struct MshWish {
   std::optional<bool> binary;
 };
 
-/// The file that will become the output once it is committed.
-StagedFile stage(const OutputPlan& plan);
+/// The file that will become the output once it is committed. `names` as for StagedFile.
+StagedFile stage(const OutputPlan& plan, TemporaryNames* names = nullptr);
 
 /// \pre the model is empty: nothing has been opened yet
 /// \throws OutputError if this build of Gmsh cannot write the format at all
-void check_format(const OutputPlan& plan);
+void check_format(const OutputPlan& plan, TemporaryNames* names = nullptr);
 
 /// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
 void renumber();
