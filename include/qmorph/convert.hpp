@@ -25,10 +25,12 @@ QuadMesh convert(const Patch& patch, const Options& options = {});
 
 /// Makes a better quad mesh of one that is there already, by whoever made it: triangles and quads in any share, both free
 /// to change. Triangles are paired and passed to one another as far as parity lets, then the stages of convert() after
-/// the front follow. `ConversionStats::front_quads` stays 0 but for regions where only the front found valid elements.
+/// the front follow. `ConversionStats::front_quads` stays 0 but for regions where nothing but the front found valid or good elements.
 ///
 /// Quads that are not convex or turned over are untangled by moving their nodes, else cut into triangles that take part.
-/// Guarantees as convert() does, for every region of triangles and quads; `Patch::quads` are not kept.
+/// Guarantees as convert() does, for every region of triangles and quads; `Patch::quads` are not kept. No region gets a smaller
+/// least or mean scaled Jacobian than it had, nor more quads under 0.2, but where its triangles could not go otherwise:
+/// `ConversionStats::worse_regions`.
 ///
 /// \throws SurfaceError as convert() does, and where an element that is turned over cannot be turned back by moving nodes.
 /// Cost: linear in the number of elements.

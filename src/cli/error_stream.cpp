@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/error_stream.hpp"
 
+#include <string_view>
+
 namespace qmorph::cli {
 
 int ErrorStream::Buffer::sync() {
@@ -14,7 +16,9 @@ int ErrorStream::Buffer::sync() {
 
 ErrorStream::Buffer::int_type ErrorStream::Buffer::overflow(int_type c) {
   if (c == traits_type::eof()) return traits_type::not_eof(c);
-  line_ += traits_type::to_char_type(c);
+  const char character = traits_type::to_char_type(c);
+  const bool is_control = static_cast<unsigned char>(character) < ' ' && std::string_view("\n\r\t").find(character) > 2;
+  line_ += is_control ? '?' : character;  // bytes of a file that is none of what it says
   if (line_.back() == '\n') sync();
   return c;
 }

@@ -48,6 +48,7 @@ constexpr std::array kRows = {
     Row{"keep-curves", "--keep-curves T,...", 1, "curves with these tags get none"},
     Row{"cleanup-only", "--cleanup-only", 0,
         "improve quads, by Gmsh or anyone, that are there already; triangles among them are paired"},
+    Row{"orient", "--orient", 0, "turn elements so that neighbours agree; counterclockwise where the model is flat"},
     Row{"for", "--for READER", 1,
         "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
     Row{"elements", "--elements NAME", 1, "for decks: CPS (default), CPE, CAX, S or M3D, with an R behind for reduced"},
@@ -276,6 +277,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_flag("--save", request.no_meshing);
   app.add_option("--part", request.partitions)->check(whole_number("-part"));
   app.add_flag("--drop-volumes", request.drop_volumes);
+  app.add_flag("--orient", request.orient);
   app.add_option("--for", request.consumer);
   auto* elements = app.add_option("--elements", request.elements);
   app.add_flag("--check", request.check);

@@ -32,6 +32,7 @@ struct Request {
   bool cleanup_only = false;                   ///< improve the quads that are there
   bool all_quad = false;                       ///< curves may get nodes so that no triangle is left
   std::vector<int> keep_curves;
+  bool orient = false;      ///< neighbouring elements agree in the end
   bool views = false;       ///< figures go into the mesh file, or beside it
   bool view = false;        ///< Gmsh's window in the end
   bool check = false;       ///< judge the mesh, write nothing

@@ -34,6 +34,7 @@
 #include "gmsh/session/session.hpp"
 #include "gmsh/window/window.hpp"
 #include "gmsh/write/consumers.hpp"
+#include "gmsh/write/prepare.hpp"
 #include "gmsh/write/staged_file.hpp"
 #include "gmsh/write/write.hpp"
 #include "qmorph/gmsh.hpp"
@@ -63,7 +64,7 @@ bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const
   const bool same_format = opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
                            !request.msh_version && !request.binary && request.merged.empty() && !request.views;
   const bool untouched = model.count(SurfaceOutcome::kConverted) == 0 && request.dimension != 3 &&
-                         !request.drop_volumes && !request.order_chosen && request.partitions == 0;
+                         !request.drop_volumes && !request.order_chosen && !request.orient && request.partitions == 0;
   return same_format && untouched;
 }
 
@@ -164,6 +165,16 @@ std::vector<std::string> finish_model(const Request& request, adapter::OpenedMod
   return raised.bent;
 }
 
+/// Changes of the model that the reader, or the readers of the format, ask for.
+void prepare_for_readers(const Request& request, const adapter::OutputPlan& plan, std::ostream& err) {
+  const adapter::Consumer* reader = request.consumer.empty() ? nullptr : &adapter::find_consumer(request.consumer);
+  if (request.orient || (reader && reader->oriented))
+    if (const std::string problem = adapter::orient_surfaces(); !problem.empty() && request.verbosity >= 1)
+      err << "warning: " << problem << '\n';
+  if (reader && reader->wants_incomplete) adapter::drop_middle_nodes();
+  if (!reader) adapter::prepare_for_format(plan);
+}
+
 /// One call of the command, as it goes through the functions below.
 struct Call {
   const Request& request;
@@ -196,11 +207,10 @@ adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) 
   return opened;
 }
 
-adapter::OpenedModel open(const Call& call) {
+adapter::OpenedModel open(const Call& call, const adapter::OutputPlan& plan) {
   const Request& request = call.request;
   if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
-  if (!request.consumer.empty() && adapter::find_consumer(request.consumer).wants_incomplete)
-    adapter::set_option("Mesh.SecondOrderIncomplete", 1);
+  if (plan.format.quad_nodes == 8) adapter::set_option("Mesh.SecondOrderIncomplete", 1);
   for (const std::string& name : request.option_names)
     if (!adapter::option_exists(name) && request.verbosity >= 1)
       call.err << "warning: this Gmsh has no option " << name << '\n';
@@ -211,6 +221,10 @@ adapter::OpenedModel open(const Call& call) {
   if (request.drop_volumes) adapter::drop_volumes();
   if (request.verbosity >= 1) name_ignored_options(request, opened, call.err);
   if (request.order_chosen) adapter::lower_model(static_cast<int>(adapter::get_option("Mesh.ElementOrder")));
+  if (request.consumer.empty()) {
+    const int raised = static_cast<int>(adapter::get_option("Mesh.ElementOrder")), has = adapter::order_of_surfaces();
+    adapter::check_elements(plan, has > 1 ? has : raised);
+  }
   return opened;
 }
 
@@ -244,7 +258,7 @@ int convert_file(const Call& call) {
   const std::string cannot_write = fmt::format("cannot write {}: Gmsh crashed", plan.name);
   call.begin(kCannotWrite, cannot_write);
   adapter::check_format(plan, call.names());
-  adapter::OpenedModel opened = open(call);
+  adapter::OpenedModel opened = open(call, plan);
 
   std::optional<Progress> bar;
   if (request.verbosity >= 1 && call.process.err_is_terminal) options.progress = std::ref(bar.emplace(call.err));
@@ -270,6 +284,7 @@ int convert_file(const Call& call) {
   if (request.verbosity >= 1 && !is_as_it_was(request, plan, opened, model))
     for (const std::string& lost : unwritten) call.err << "warning: " << lost << '\n';
   call.begin(kCannotWrite, cannot_write);
+  if (!is_as_it_was(request, plan, opened, model)) prepare_for_readers(request, plan, call.err);
   adapter::StagedFile file = adapter::stage(plan, call.names());
   call.err.call(file.path(), plan.name);
   const bool written = write(request, plan, opened, model, file);

@@ -11,6 +11,7 @@ const char* name_of(Stage stage) {
 void ConversionStats::add(const ConversionStats& other) {
   regions += other.regions;
   odd_regions += other.odd_regions;
+  worse_regions += other.worse_regions;
   front_quads += other.front_quads;
   leftover_triangles += other.leftover_triangles;
   front_seconds += other.front_seconds;

@@ -1,6 +1,9 @@
 // Quads and triangles in, better quads out.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -235,4 +238,103 @@ TEST_CASE("improve: nothing comes of nothing, and the stages are measured as in 
   CHECK(mesh.stats.stages.front().quality.result().quads == 6);
   CHECK(mesh.stats.stages.front().quality.result().triangles == 0);
   CHECK(mesh.stats.stages.back().quality.result().quads == 6);
+}
+
+namespace {
+
+/// What a region may not get worse in, of a whole mesh.
+struct Figures {
+  double least = 1, mean = 1;
+  std::size_t poor = 0;
+};
+
+Figures figures_of(const std::vector<Eigen::Vector3d>& points, const std::vector<std::array<Index, 4>>& quads) {
+  Figures figures;
+  double sum = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const auto& q : quads) normal += (points[q[2]] - points[q[0]]).cross(points[q[3]] - points[q[1]]);
+  for (const auto& q : quads) {
+    const double value = qmorph::scaled_jacobian(
+        qmorph::QuadCorners{points[q[0]], points[q[1]], points[q[2]], points[q[3]]}, normal.normalized());
+    figures.least = std::min(figures.least, value);
+    figures.poor += value < 0.2;
+    sum += value;
+  }
+  if (!quads.empty()) figures.mean = sum / double(quads.size());
+  return figures;
+}
+
+/// A patch of one region of all the elements of another mesh.
+Patch as_patch(const QuadMesh& mesh, const Patch& of) {
+  Patch patch;
+  patch.points = mesh.points;
+  patch.quads = mesh.quads;
+  patch.triangles = mesh.triangles;
+  std::map<Index, Index> row;
+  for (Index i = 0; i < mesh.source.size(); ++i)
+    if (mesh.source[i] != qmorph::kNone) row[mesh.source[i]] = i;
+  for (const auto& [a, b] : of.constraints) patch.constraints.push_back({row.at(a), row.at(b)});
+  for (const Index v : of.fixed) patch.fixed.push_back(row.at(v));
+  return patch;
+}
+
+void check_no_worse(const Patch& patch, const QuadMesh& mesh) {
+  const Figures before = figures_of(patch.points, patch.quads), after = figures_of(mesh.points, mesh.quads);
+  CHECK(after.least > before.least - 1e-9);
+  CHECK(after.poor <= before.poor);
+  // Regions with different numbers of quads weigh differently before and after.
+  if (mesh.stats.regions == 1) CHECK(after.mean > before.mean - 1e-9);
+}
+
+}  // namespace
+
+TEST_CASE("improve: what is good stays as good") {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    CAPTURE(seed);
+    const Patch triangles = qmorph::test::random_domain(seed).patch;
+    if (!triangles.quads.empty()) continue;
+    const Patch patch = as_patch(qmorph::convert(triangles), triangles);
+    const QuadMesh mesh = improve(patch);
+    CHECK(mesh.stats.worse_regions == 0);
+    check_no_worse(patch, mesh);
+  }
+}
+
+TEST_CASE("improve: no region gets worse but for triangles that have to go") {
+  int worse = 0, regions = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    CAPTURE(seed);
+    const Patch triangles = qmorph::test::random_domain(seed).patch;
+    if (!triangles.quads.empty()) continue;
+    const Patch patch = join_at_random(triangles, seed);
+    const QuadMesh mesh = improve(patch);
+    regions += int(mesh.stats.regions), worse += int(mesh.stats.worse_regions);
+    if (mesh.stats.worse_regions == 0)
+      check_no_worse(patch, mesh);
+    else
+      CHECK(patch.triangles.size() > mesh.stats.odd_regions);
+  }
+  CHECK(10 * worse < regions);
+}
+
+TEST_CASE("improve: rows of stretched quads with a few triangles among them stay rows") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    qmorph::test::Rng rng(seed);
+    Patch patch = grid(30, 10);
+    double y = 0;
+    for (Index row = 0; row <= 10; ++row, y += 0.02 * std::pow(1.3, double(row)))
+      for (Index x = 0; x <= 30; ++x) patch.points[x + row * 31].y() = y;
+    for (int cut = 0; cut < 4; ++cut) {  // eight triangles
+      const std::size_t at = rng.below(patch.quads.size());
+      const auto q = patch.quads[at];
+      patch.quads.erase(patch.quads.begin() + std::ptrdiff_t(at));
+      patch.triangles.push_back({q[0], q[1], q[2]});
+      patch.triangles.push_back({q[0], q[2], q[3]});
+    }
+    const QuadMesh mesh = improve(patch);
+    CHECK(mesh.triangles.empty());
+    CHECK(mesh.quads.size() == 300);
+    check_no_worse(patch, mesh);
+  }
 }

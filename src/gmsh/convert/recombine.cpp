@@ -110,6 +110,9 @@ void refuse_bad_quads(const SurfaceMesh& surface) {
                                      part.quad_tags[bad.quad], bad.where));
 }
 
+/// Means of scaled Jacobians that differ by no more are the same.
+constexpr double kSameMean = 1e-9;
+
 /// What is done to a surface: its triangles are converted, or its quads improved as well, or nothing.
 enum class Task { convert, improve, measure };
 
@@ -162,6 +165,7 @@ class Run {
   void accept(ConvertedSurface converted, SurfaceReport& report);
   void check(const ConvertedSurface& converted) const;
   void measure_quads(std::uint32_t entity, SurfaceReport& report);
+  void compare_with_input(const ConvertedSurface& converted, SurfaceReport& report);
   void restore_periodicity(const std::vector<PartTags>& part_tags);
 
   const Task task_;
@@ -174,7 +178,7 @@ class Run {
   std::map<std::uint32_t, CommonElement> common_;
   std::vector<Index> local_;
   std::vector<ConvertedSurface> converted_;
-  QualityAccumulator total_;
+  QualityAccumulator total_, total_before_;
 };
 
 SurfaceReport Run::begin_report(std::uint32_t entity) const {
@@ -372,8 +376,24 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.outcome = SurfaceOutcome::kConverted;
   report.warnings = converted.surface.warnings;
   report.quality = quality.result();
+  if (task_ == Task::improve) compare_with_input(converted, report);
   converted_.push_back(std::move(converted));
   report_.check_seconds += watch.lap();
+}
+
+/// Quads that are to be improved are not to get worse, and where they have to, that is said.
+void Run::compare_with_input(const ConvertedSurface& converted, SurfaceReport& report) {
+  QualityAccumulator before;
+  for (const SurfacePart& part : converted.surface.parts)
+    before.add(part.patch.points, part.patch.triangles, part.patch.quads, patch_normal(part.patch));
+  total_before_.add(before);
+  const Quality was = before.result();
+  if (report.stats.worse_regions > 0)
+    report.warnings.push_back(
+        fmt::format("{} triangles could not go without quads getting worse: scaled Jacobian min {:.3f} -> {:.3f}, mean "
+                    "{:.3f} -> {:.3f}",
+                    report.triangles_in, was.scaled_jacobian_min, report.quality.scaled_jacobian_min,
+                    was.scaled_jacobian_mean, report.quality.scaled_jacobian_mean));
 }
 
 void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
@@ -405,6 +425,14 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
 void Run::finish() {
   StopWatch watch;
   report_.total = total_.result();
+  const Quality before = total_before_.result();
+  const bool said = std::any_of(report_.surfaces.begin(), report_.surfaces.end(),
+                                [](const SurfaceReport& surface) { return surface.stats.worse_regions > 0; });
+  if (task_ == Task::improve && before.quads > 0 && !said &&
+      report_.total.scaled_jacobian_mean < before.scaled_jacobian_mean - kSameMean)
+    report_.warnings.push_back(
+        fmt::format("the mean scaled Jacobian of all quads fell from {:.4f} to {:.4f}, since triangles became quads",
+                    before.scaled_jacobian_mean, report_.total.scaled_jacobian_mean));
   report_.check_seconds += watch.lap();
   restore_periodicity(replace_surfaces(model_.mesh, converted_));
   report_.replace_seconds = watch.lap();

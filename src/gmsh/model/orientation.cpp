@@ -59,6 +59,16 @@ void walk_part(Index seed, const Neighbours& neighbours, Orientation& result) {
 
 }  // namespace
 
+Orientation orient_where_possible(std::size_t elements, const std::vector<Side>& sides) {
+  Orientation result;
+  result.part.assign(elements, kNone);
+  result.flip.assign(elements, false);
+  const Neighbours neighbours = find_neighbours(elements, sides);
+  for (Index e = 0; e < elements; ++e)
+    if (result.part[e] == kNone) walk_part(e, neighbours, result);
+  return result;
+}
+
 Orientation orient(std::size_t elements, const std::vector<Side>& sides) {
   Orientation result;
   for_each_edge(sides, [&](std::span<const Side> edge) {
@@ -67,12 +77,7 @@ Orientation orient(std::size_t elements, const std::vector<Side>& sides) {
     result.where = edge[0];
   });
   if (result.defect) return result;
-
-  result.part.assign(elements, kNone);
-  result.flip.assign(elements, false);
-  const Neighbours neighbours = find_neighbours(elements, sides);
-  for (Index e = 0; e < elements; ++e)
-    if (result.part[e] == kNone) walk_part(e, neighbours, result);
+  result = orient_where_possible(elements, sides);
   if (result.flipped == 0) return result;
 
   for_each_edge(sides, [&](std::span<const Side> edge) {

@@ -24,4 +24,8 @@ struct Orientation {
 /// \param elements how many elements the sides belong to
 Orientation orient(std::size_t elements, const std::vector<Side>& sides);
 
+/// The same for what need not have an orientation: edges with more than two elements join nothing, and where no turning helps
+/// something is left as it is. No defect is set.
+Orientation orient_where_possible(std::size_t elements, const std::vector<Side>& sides);
+
 }  // namespace qmorph::adapter

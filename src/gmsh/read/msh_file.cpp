@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
+#include <string_view>
 
+#include "gmsh/read/msh_check.hpp"
+#include "gmsh/read/msh_numbers.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -24,14 +24,20 @@ constexpr int kLinesToLookAt = 200;
 /// For the end of a file: more than any remark that somebody may have left after the mesh.
 constexpr std::streamoff kTailToLookAt = 4096;
 
-/// Gmsh's element types go from 1 to this at most; it crashes on others.
-constexpr long long kLastType = 140;
-
 std::string lower_extension(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+std::string read_head(const std::string& path) {
+  constexpr std::size_t kHead = std::size_t{1} << 20;  // a line may be as long as the file
+  std::ifstream in(path, std::ios::binary);
+  std::string head(kHead, ' ');
+  in.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
 }
 
 /// The last line with a dollar sign of a whole file ends a section.
@@ -46,132 +52,107 @@ void check_complete(const std::string& path) {
   if (word != "$End" && word != "$END") throw InputError(fmt::format("{} ends too soon: it is not complete", path));
 }
 
-/// The number one, as four bytes, follows the line with the format in a binary file.
-void check_binary(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  while (std::getline(in, line) && line.rfind("$MeshFormat", 0) != 0) {
-  }
-  std::getline(in, line);
-  std::array<char, 4> one{};
-  in.read(one.data(), one.size());
-  if (one != std::array<char, 4>{1, 0, 0, 0} && one != std::array<char, 4>{0, 0, 0, 1})
-    throw InputError(fmt::format("{} says that it is binary and is not", path));
-}
-
-/// Numbers of a line, as many as there are up to N; the rest is 0.
-template <std::size_t N>
-std::array<long long, N> numbers(const std::string& line) {
-  std::array<long long, N> values{};
-  const char* at = line.c_str();
-  for (long long& value : values) {
-    char* end = nullptr;
-    value = std::strtoll(at, &end, 10);
-    if (end == at) break;
-    at = end;
-  }
-  return values;
-}
-
-/// One pass over the lines of an ASCII file of version 2 or 4. Gmsh takes as many elements as the file says that there
-/// are, without a word about more, about a section that is missing, or about tags that it cannot hold.
-class TextCheck {
+/// Goes through a file section by section. Gmsh takes as many elements as the file says that there are, without a word about more,
+/// about a section that is missing, or about numbers that it cannot hold; and where bytes are not what it expects, it crashes.
+class MshCheck {
  public:
-  TextCheck(const std::string& path, const MshHeader& header) : path_(path), version_(header.version) {}
+  MshCheck(const std::string& path, std::string_view text, double version)
+      : in_(path, text), state_{.in = in_, .version = version} {}
   MshContents run();
 
  private:
-  void begin(const std::string& word, std::istream& in);
-  void take(const std::string& line);
-  void take_element(const std::string& line);
-  void end();
-  void check_node_tag(long long tag) const {
-    if (tag > std::numeric_limits<int>::max())
-      throw InputError(
-          fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh", path_,
-                      tag, std::numeric_limits<int>::max()));
-  }
+  void read_header();
+  void read_names();
+  bool read_section(const std::string& name);
+  void find_end(const std::string& name, bool is_known);
 
-  const std::string& path_;
-  double version_;
-  std::string section_;
-  long long stated_ = 0, expected_ = 0, lines_ = 0, rest_of_block_ = 0;
-  std::optional<std::size_t> elements_;
+  MshNumbers in_;
+  MshState state_;
+  MshContents contents_;
 };
 
-MshContents TextCheck::run() {
-  std::ifstream in(path_, std::ios::binary);
-  for (std::string line; std::getline(in, line);) {
-    line.erase(line.find_last_not_of(" \t\r") + 1);
-    if (line.empty()) continue;
-    if (section_.empty() && line[0] == '$') {
-      begin(line.substr(1), in);
-    } else if (line[0] == '$' && line == "$End" + section_) {
-      end();
-      section_.clear();
-    } else {
-      take(line);
-    }
+MshContents MshCheck::run() {
+  while (!in_.at_end()) {
+    const std::string_view line = in_.line();
+    if (line.empty() || line[0] != '$') continue;
+    const std::string name(line.substr(1));
+    // Gmsh ends a section with what follows it, if that is what begins the next one.
+    if (name.substr(0, 3) == "End" || name.substr(0, 3) == "END") continue;
+    find_end(name, read_section(name));
   }
-  if (!section_.empty()) throw InputError(fmt::format("{} ends too soon: there is no $End{}", path_, section_));
-  return {elements_, {}};
+  if (state_.has_elements) contents_.elements = state_.elements;
+  return contents_;
 }
 
-void TextCheck::begin(const std::string& word, std::istream& in) {
-  section_ = word;
-  lines_ = rest_of_block_ = 0;
-  if (word != "Elements" && word != "Nodes") return;
-  std::string line;
-  std::getline(in, line);
-  const auto header = numbers<4>(line);
-  stated_ = version_ < 4 ? header[0] : header[1];
-  expected_ = version_ < 4 ? stated_ : header[0] + stated_;  // a line for each block
-  if (word == "Nodes" && version_ > 4) check_node_tag(header[3]);
+/// The number one, as four bytes, follows the line with the format in a binary file.
+void MshCheck::read_header() {
+  const std::string line(in_.line());
+  int binary = 0;
+  std::size_t size = 0;
+  double version = 0;
+  if (!(std::istringstream(line) >> version >> binary >> size)) in_.fail("has no version in its $MeshFormat");
+  if (!binary) return;
+  const std::string_view one = in_.peek_bytes(4);
+  const bool swapped = one == std::string_view("\0\0\0\1", 4);
+  if (!swapped && one != std::string_view("\1\0\0\0", 4)) in_.fail("says that it is binary and is not");
+  if (version >= 4 && size != sizeof(std::size_t))
+    in_.fail(fmt::format("is binary with numbers of {} bytes, and Gmsh reads those of {} alone", size, sizeof(std::size_t)));
+  if (version >= 4 && version < 4.1) in_.fail("is binary and of version 4.0, which Gmsh reads as text alone");
+  in_.be_binary(swapped);
+  in_.integer();
 }
 
-void TextCheck::take(const std::string& line) {
-  ++lines_;
-  if (section_ == "Nodes" && version_ < 4) check_node_tag(numbers<1>(line)[0]);
-  if (section_ == "Elements") take_element(line);
-}
-
-void TextCheck::take_element(const std::string& line) {
-  // Number, type, how many tags, group, entity; in version 4 a line of this kind begins a block and ends in a count.
-  const auto element = numbers<5>(line);
-  if (version_ >= 4) {
-    if (rest_of_block_-- > 0) return;
-    rest_of_block_ = element[3];
-  } else if (element[2] >= 2 && element[4] < 0) {
-    throw InputError(fmt::format("{}: element {} has the elementary tag {}, and Gmsh cannot keep tags below 0", path_,
-                                 element[0], element[4]));
-  }
-  const long long type = version_ < 4 ? element[1] : element[2];
-  if (type < 1 || type > kLastType)
-    throw InputError(
-        fmt::format("{}: elements of type {}, which Gmsh does not have, in the line '{}'", path_, type, line));
-}
-
-void TextCheck::end() {
-  const bool counted = section_ == "Elements" || (section_ == "Nodes" && version_ < 4);
-  if (counted && (stated_ < 0 || lines_ > expected_))
-    throw InputError(fmt::format("{} contradicts itself: ${} says {}, and there are {}", path_, section_, stated_,
-                                 lines_ - (expected_ - stated_)));
-  if (section_ == "Elements") elements_ = elements_.value_or(0) + static_cast<std::size_t>(stated_);
-}
-
-/// Lines of $PhysicalNames are text in binary files, too, and come before the nodes.
-std::vector<GroupName> find_odd_names(const std::string& path) {
-  std::vector<GroupName> names;
-  std::ifstream in(path, std::ios::binary);
-  bool inside = false;
-  for (std::string line; std::getline(in, line) && line.rfind("$Nodes", 0) != 0;) {
-    if (line[0] == '$') inside = line.rfind("$PhysicalNames", 0) == 0;
+/// Lines are text in binary files, too. Gmsh cuts names at a quote inside, and has as many dimensions as there are.
+void MshCheck::read_names() {
+  constexpr std::size_t kLongestLine = 250;
+  const long long count = in_.word();
+  in_.line();
+  in_.require_room(count, 4, "names");
+  for (long long i = 0; i < count; ++i) {
+    const long long dim = in_.word(), tag = in_.word();
+    const std::string line(in_.line());
+    if (dim < 0 || dim > 3) in_.fail(fmt::format("contradicts itself: a group of dimension {}", dim));
+    if (line.size() > kLongestLine) in_.fail(fmt::format("has a name of {} bytes, and Gmsh reads {}", line.size(), kLongestLine));
     const std::size_t open = line.find('"'), close = line.rfind('"');
-    if (!inside || open == close || line.find('"', open + 1) == close) continue;
-    const auto head = numbers<2>(line);
-    names.push_back({static_cast<int>(head[0]), static_cast<int>(head[1]), line.substr(open + 1, close - open - 1)});
+    if (open == close || line.find('"', open + 1) == close) continue;
+    contents_.odd_names.push_back(
+        {static_cast<int>(dim), static_cast<int>(tag), line.substr(open + 1, close - open - 1)});
   }
-  return names;
+}
+
+/// \return false for one that is not known
+bool MshCheck::read_section(const std::string& name) {
+  const bool is_4 = state_.version >= 4;
+  if (name == "MeshFormat")
+    read_header();
+  else if (name == "PhysicalNames")
+    read_names();
+  else if (name == "NodeData" || name == "ElementData" || name == "ElementNodeData")
+    check_data(state_, name == "ElementNodeData");
+  else if (name == "Nodes" || name == "NOD")
+    is_4 ? check_nodes_of_4(state_) : check_nodes_before_4(state_, false);
+  else if (name == "Elements" || name == "ELM")
+    is_4 ? check_elements_of_4(state_) : check_elements_before_4(state_);
+  else if (name == "Periodic")
+    is_4 ? check_periodic_of_4(state_) : check_periodic_before_4(state_);
+  else if (name == "ParametricNodes" && !is_4)
+    check_nodes_before_4(state_, true);
+  else if (name == "Entities" && state_.version >= 3)
+    is_4 ? check_entities_of_4(state_, false) : check_entities_of_3(state_);
+  else if (name == "PartitionedEntities" && is_4)
+    check_entities_of_4(state_, true);
+  else if (name == "GhostElements" && is_4)
+    check_ghosts_of_4(state_);
+  else
+    return false;
+  return true;
+}
+
+void MshCheck::find_end(const std::string& name, bool is_known) {
+  const std::string end = (name == "NOD" || name == "ELM" ? "$END" : "$End") + name;
+  if (is_known && !in_.at_end() && in_.peek_token().substr(0, 1) != "$")
+    in_.fail(fmt::format("contradicts itself: there is more in ${} than it says", name));
+  if (in_.skip_to_line(end) < 0) in_.fail(fmt::format("ends too soon: there is no {}", end));
 }
 
 }  // namespace
@@ -179,7 +160,7 @@ std::vector<GroupName> find_odd_names(const std::string& path) {
 MshHeader read_msh_header(const std::string& path) {
   MshHeader header;
   const bool named_msh = lower_extension(path) == ".msh";
-  std::ifstream in(path, std::ios::binary);
+  std::istringstream in(read_head(path));
   std::string line;
   for (int i = 0; i < kLinesToLookAt && std::getline(in, line); ++i) {
     if (line.rfind("$NOD", 0) == 0) {
@@ -200,15 +181,11 @@ MshHeader read_msh_header(const std::string& path) {
 }
 
 MshContents check_msh_file(const std::string& path, const MshHeader& header, bool whole) {
+  if (header.version < 1 || header.version >= 5) return {};  // Gmsh says what it thinks of it
   check_complete(path);
-  MshContents contents;
-  if (header.binary)
-    check_binary(path);
-  else if (header.is_2() || header.is_4())
-    contents = TextCheck(path, header).run();
-  if (whole && !header.binary && (header.is_2() || header.is_4()) && !contents.elements)
-    throw InputError(fmt::format("{} has no $Elements: it is not complete", path));
-  contents.odd_names = find_odd_names(path);
+  const MappedFile file(path);
+  const MshContents contents = MshCheck(path, file.text(), header.version).run();
+  if (whole && !contents.elements) throw InputError(fmt::format("{} has no $Elements: it is not complete", path));
   return contents;
 }
 

@@ -99,6 +99,14 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
                    fmt::join(element.nodes, " "));
   }
   fmt::format_to(out, "$EndElements\n");
+  if (!mesh.links.empty()) fmt::format_to(out, "$Periodic\n{}\n", mesh.links.size());
+  for (const PeriodicLink& link : mesh.links) {
+    fmt::format_to(out, "{} {} {}\n", link.dim, link.slave, link.master);
+    if (!link.transformation.empty()) fmt::format_to(out, "Affine {}\n", fmt::join(link.transformation, " "));
+    fmt::format_to(out, "{}\n", link.nodes.size());
+    for (const auto& [node, master] : link.nodes) fmt::format_to(out, "{} {}\n", node, master);
+  }
+  if (!mesh.links.empty()) fmt::format_to(out, "$EndPeriodic\n");
   save(path, text);
 }
 

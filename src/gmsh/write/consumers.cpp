@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 #include "gmsh/model/high_order.hpp"
@@ -21,9 +22,14 @@ namespace {
 
 constexpr std::array kConsumers = {
     // grid_in.cc: a boundary id on an inner face is an exception; quads are reordered only if there is nothing else.
-    Consumer{.name = "dealii", .title = "deal.II", .format = "msh2", .only_quads = true, .inner_lines = false},
+    Consumer{.name = "dealii",
+             .title = "deal.II",
+             .format = "msh2",
+             .only_quads = true,
+             .inner_lines = false,
+             .oriented = true},
     // gmsh.cpp: attributes all positive; one order in a file.
-    Consumer{.name = "mfem", .title = "MFEM", .format = "msh2", .max_order = 10, .right_handed = true},
+    Consumer{.name = "mfem", .title = "MFEM", .format = "msh2", .max_order = 10, .oriented = true, .periodic = true},
     // gmsh.py: every cell tagged exactly once; no 8-node quads; node numbers without gaps.
     Consumer{.name = "dolfinx",
              .title = "DOLFINx",
@@ -38,19 +44,19 @@ constexpr std::array kConsumers = {
              .format = "su2",
              .inner_lines = false,
              .needs_curve_groups = true,
-             .right_handed = true},
+             .oriented = true},
     Consumer{.name = "calculix",
              .title = "CalculiX",
              .format = "inp",
              .max_order = 2,
              .wants_incomplete = true,
-             .right_handed = true},
+             .oriented = true},
     Consumer{.name = "abaqus",
              .title = "Abaqus",
              .format = "inp",
              .max_order = 2,
              .wants_incomplete = true,
-             .right_handed = true},
+             .oriented = true},
     // gmshToFoam.C: version 2 in ASCII; quads are patches of the cells behind them.
     Consumer{.name = "openfoam", .title = "gmshToFoam", .format = "msh2", .needs_volumes = true},
     // LibGmsh2Specfem: the first element says by its type whether there are 4 or 9 nodes, and must be a line; names are
@@ -63,7 +69,7 @@ constexpr std::array kConsumers = {
              .points = false,
              .specfem_names = true,
              .needs_surface_groups = true,
-             .right_handed = true},
+             .oriented = true},
 };
 
 using Edge = std::pair<std::size_t, std::size_t>;
@@ -81,14 +87,6 @@ std::map<Edge, int> count_sides(const ModelMesh& mesh) {
   return count;
 }
 
-/// The nodes of an element that is walked round the other way. Orders 1 and 2.
-std::vector<std::size_t> turned(std::vector<std::size_t> nodes, std::size_t corners) {
-  const auto at = [&](std::size_t i) { return nodes.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::reverse(at(1), at(corners));
-  if (nodes.size() >= 2 * corners) std::reverse(at(corners), at(2 * corners));
-  return nodes;
-}
-
 class Collector {
  public:
   Collector(const Consumer& consumer, bool everything)
@@ -97,7 +95,9 @@ class Collector {
     ::gmsh::model::getPhysicalGroups(groups);
     if (groups.empty()) everything_ = true;
     if (!consumer.inner_lines) sides_ = count_sides(mesh_);
-    for (const Eigen::Vector3d& p : mesh_.points) flat_ = flat_ && p.z() == mesh_.points.front().z();
+    for (const EntityMesh& entity : mesh_.entities)
+      for (const ElementBlock& block : entity.blocks)
+        if (entity.dim > 0) joined_.insert(block.nodes.begin(), block.nodes.end());
   }
 
   ConsumerMesh collect();
@@ -105,18 +105,19 @@ class Collector {
  private:
   void add_entity(const EntityMesh& entity);
   void complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups);
+  void add_links();
   void complain_of_elements();
   void complain_of_names();
   bool is_inner_line(const ElementBlock& block, std::size_t i) const;
-  bool is_clockwise(const ElementBlock& block, std::size_t i) const;
   std::size_t number(std::size_t tag);
   Eigen::Vector3d point(std::size_t tag) const { return mesh_.points[mesh_.rows.find(tag)]; }
 
   const Consumer& consumer_;
   ModelMesh mesh_;
-  bool everything_, flat_ = true;
+  bool everything_;
   double scale_ = get_option("Mesh.ScalingFactor");
   std::map<Edge, int> sides_;
+  std::unordered_set<std::size_t> joined_;  ///< nodes of elements that are no points
   std::map<std::size_t, std::size_t> numbers_;
   ConsumerMesh result_;
   std::set<int> signs_;  // of the surfaces' groups: 1 in one, 0 in none
@@ -131,14 +132,6 @@ std::size_t Collector::number(std::size_t tag) {
 bool Collector::is_inner_line(const ElementBlock& block, std::size_t i) const {
   const auto side = sides_.find(std::minmax(block.nodes[i], block.nodes[i + 1]));
   return side == sides_.end() || side->second != 1;
-}
-
-bool Collector::is_clockwise(const ElementBlock& block, std::size_t i) const {
-  double area = 0;
-  const Eigen::Vector3d origin = point(block.nodes[i]);
-  for (std::size_t k = 2; k < block.corners; ++k)
-    area += (point(block.nodes[i + k - 1]) - origin).cross(point(block.nodes[i + k]) - origin).z();
-  return area < 0;
 }
 
 void Collector::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
@@ -162,15 +155,12 @@ void Collector::add_entity(const EntityMesh& entity) {
   for (const ElementBlock& block : entity.blocks)
     for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
       if (entity.dim == 1 && !consumer_.inner_lines && is_inner_line(block, i)) continue;
+      // A node that hangs on nothing is a row of zeros in a matrix. In decks one may be meant, to tie others to.
+      const bool may_be_loose = consumer_.format == "inp" && !groups.empty();
+      if (entity.dim == 0 && !may_be_loose && !joined_.count(block.nodes[i])) continue;
       ConsumerElement element{entity.dim, block.type, entity.tag, groups, {}};
       const auto begin = block.nodes.begin() + static_cast<std::ptrdiff_t>(i);
       element.nodes.assign(begin, begin + static_cast<std::ptrdiff_t>(block.nodes_per_element));
-      if (entity.dim == 2 && consumer_.right_handed && flat_ && is_clockwise(block, i)) {
-        if (block.order > 2)
-          throw OutputError(fmt::format("surface {} is clockwise, and elements of order {} cannot be turned",
-                                        entity.tag, block.order));
-        element.nodes = turned(element.nodes, block.corners);
-      }
       for (std::size_t& node : element.nodes) node = number(node);
       result_.elements.push_back(std::move(element));
     }
@@ -238,8 +228,23 @@ void Collector::complain_of_elements() {
     say("some surfaces are in a physical group and some are not: a non-positive element attribute for MFEM");
 }
 
+/// Only nodes that the reader gets.
+void Collector::add_links() {
+  for (const int dim : {0, 1, 2})
+    for (PeriodicLink& link : read_periodic_links(mesh_, dim)) {
+      std::vector<std::pair<std::size_t, std::size_t>> pairs;
+      for (const auto& [slave, master] : link.nodes) {
+        const auto one = numbers_.find(slave), other = numbers_.find(master);
+        if (one != numbers_.end() && other != numbers_.end()) pairs.emplace_back(one->second, other->second);
+      }
+      link.nodes = std::move(pairs);
+      if (!link.nodes.empty()) result_.links.push_back(std::move(link));
+    }
+}
+
 ConsumerMesh Collector::collect() {
   for (const EntityMesh& entity : mesh_.entities) add_entity(entity);
+  if (consumer_.periodic) add_links();
   complain_of_elements();
   return std::move(result_);
 }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gmsh/model/periodic_links.hpp"
+
 namespace qmorph::adapter {
 
 /// One reader (--for NAME). Sources: the readers' own code and issues, as of November 2026.
@@ -23,7 +25,8 @@ struct Consumer {
   bool specfem_names = false;     ///< curves Top, Bottom, Left and Right; surfaces M1, M2, ...
   bool needs_surface_groups = false;
   bool needs_curve_groups = false;
-  bool right_handed = false;  ///< planar meshes must be counterclockwise; they are turned
+  bool oriented = false;  ///< neighbours must agree, and planar meshes be counterclockwise: `orient_surfaces` first
+  bool periodic = false;  ///< knows which nodes are images of others
 };
 
 /// \throws UsageError that lists the names
@@ -41,6 +44,7 @@ struct ConsumerElement {
 struct ConsumerMesh {
   std::vector<Eigen::Vector3d> nodes;
   std::vector<ConsumerElement> elements;  ///< points, lines, surfaces, volumes
+  std::vector<PeriodicLink> links;        ///< for readers that know them
   std::vector<std::string> complaints;    ///< why the reader would not take it
 };
 

@@ -7,13 +7,16 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <vector>
 
 #include "gmsh/session/compat.hpp"
+#include "gmsh/session/element_types.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/write/msh2_writer.hpp"
+#include "gmsh/write/prepare.hpp"
 #include "gmsh/write/staged_file.hpp"
 #include "qmorph/error.hpp"
 
@@ -26,6 +29,7 @@ struct FormatRow {
   std::string_view name, extension;
   double msh_version;  ///< 0: not MSH; -1: MSH of whatever version fits
   bool holds_quads;
+  int max_order = 10, quad_nodes = 0;  ///< as in OutputFormat
 };
 
 /// Gmsh's mesh formats. The extension makes gmsh::write take the format; the name is what -format says.
@@ -34,18 +38,21 @@ constexpr std::array kFormats = {
     FormatRow{"msh2", ".msh2", 2.2, true}, FormatRow{"msh22", ".msh22", 2.2, true},
     FormatRow{"msh3", ".msh3", 3, true},   FormatRow{"msh4", ".msh4", 4.1, true},
     FormatRow{"msh40", ".msh40", 4, true}, FormatRow{"msh41", ".msh41", 4.1, true},
-    FormatRow{"unv", ".unv", 0, true},     FormatRow{"vtk", ".vtk", 0, true},
-    FormatRow{"mail", ".mail", 0, true},   FormatRow{"mesh", ".mesh", 0, true},
-    FormatRow{"bdf", ".bdf", 0, true},     FormatRow{"cgns", ".cgns", 0, true},
-    FormatRow{"med", ".med", 0, true},     FormatRow{"diff", ".diff", 0, true},
-    FormatRow{"ir3", ".ir3", 0, true},     FormatRow{"inp", ".inp", 0, true},
-    FormatRow{"su2", ".su2", 0, true},     FormatRow{"dat", ".dat", 0, true},
-    FormatRow{"m", ".m", 0, true},         FormatRow{"key", ".key", 0, true},
-    FormatRow{"off", ".off", 0, true},     FormatRow{"obj", ".obj", 0, true},
-    FormatRow{"stl", ".stl", 0, false},    FormatRow{"ply2", ".ply2", 0, false},
-    FormatRow{"p3d", ".p3d", 0, false},    FormatRow{"celum", ".celum", 0, false},
-    FormatRow{"neu", ".neu", 0, false},    FormatRow{"wrl", ".wrl", 0, false},
-    FormatRow{"x3d", ".x3d", 0, false},
+    FormatRow{"unv", ".unv", 0, true, 2, 8},   // 95: parabolic shells of 8 nodes
+    FormatRow{"vtk", ".vtk", 0, true, 2},      // 23 and 28
+    FormatRow{"mesh", ".mesh", 0, true, 2, 9}, // QuadrilateralsQ2
+    FormatRow{"bdf", ".bdf", 0, true, 2, 8},   // CQUAD8
+    FormatRow{"inp", ".inp", 0, true, 2, 8},   // CPS8
+    FormatRow{"key", ".key", 0, true, 2, 8},
+    FormatRow{"dat", ".dat", 0, true, 2, 9},   // Tochnog's -quad9
+    FormatRow{"diff", ".diff", 0, true, 2},    FormatRow{"ir3", ".ir3", 0, true, 2},
+    FormatRow{"su2", ".su2", 0, true, 1},      FormatRow{"m", ".m", 0, true},
+    FormatRow{"cgns", ".cgns", 0, true},       FormatRow{"med", ".med", 0, true, 2},
+    FormatRow{"off", ".off", 0, true, 1},      FormatRow{"obj", ".obj", 0, true, 1},
+    FormatRow{"stl", ".stl", 0, false},        FormatRow{"ply2", ".ply2", 0, false},
+    FormatRow{"p3d", ".p3d", 0, false},        FormatRow{"celum", ".celum", 0, false},
+    FormatRow{"neu", ".neu", 0, false},        FormatRow{"wrl", ".wrl", 0, false},
+    FormatRow{"x3d", ".x3d", 0, false},        FormatRow{"mail", ".mail", 0, false},
 };
 
 constexpr double kDefaultMshVersion = 4.1;
@@ -57,6 +64,8 @@ OutputFormat make_format(const FormatRow& row) {
   format.extension = row.extension;
   format.is_msh = row.msh_version != 0;
   format.msh_version = std::max(row.msh_version, 0.0);
+  format.max_order = row.max_order;
+  format.quad_nodes = row.quad_nodes;
   return format;
 }
 
@@ -164,6 +173,55 @@ void write_msh(const std::string& path, double version, bool everything) {
   }
 }
 
+/// Some writers put the path of their file into it, which is that of a temporary one. The name that the file will have takes its
+/// place, filled up with blanks.
+void call_by_its_name(const std::string& written, const std::string& target) {
+  constexpr std::streamsize kHead = 4096;
+  std::fstream file(written, std::ios::in | std::ios::out | std::ios::binary);
+  std::string head(kHead, '\0');
+  file.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::size_t at = head.find(written);
+  if (at == std::string::npos) return;
+  std::string name = fs::path(target).filename().string();
+  name.resize(written.size(), ' ');
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(at));
+  file << name;
+}
+
+/// Gmsh has the keyword of linear quads for those of order 2, too, and its own readers then read half of each.
+void name_quads_of_order_2(const std::string& written) {
+  const std::string linear = "\n Quadrilaterals\n", quadratic = "\n QuadrilateralsQ2\n";
+  std::ifstream in(written, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  in.close();
+  const std::size_t at = text.find(linear);
+  if (at == std::string::npos) return;
+  text.replace(at, linear.size(), quadratic);
+  std::ofstream(written, std::ios::binary) << text;
+}
+
+/// In a format other than MSH.
+void write_other(const OutputPlan& plan, const std::string& path) {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, 2);
+  const bool second_order =
+      std::any_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 2; });
+  {
+    const ScopedOption order("Mesh.ElementOrder", second_order ? 2 : 1);  // which tells the writer what it writes
+    ::gmsh::write(path);
+  }
+  call_by_its_name(path, plan.path);
+  if (second_order && plan.format.name == "mesh") name_quads_of_order_2(path);
+}
+
+bool has_elements_of(int type, int dim) {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, dim);
+  return std::count(types.begin(), types.end(), type) > 0;
+}
+
 /// Gmsh does not notice when the disk is full. A whole .msh file ends with an $End line, in binary too.
 void check_msh_end(const std::string& written, const std::string& target) {
   std::ifstream in(written, std::ios::binary | std::ios::ate);
@@ -209,6 +267,31 @@ void check_format(const OutputPlan& plan, TemporaryNames* names) {
           fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.path, plan.format.name, error));
 }
 
+void check_elements(const OutputPlan& plan, int order) {
+  constexpr int kLine3 = 8, kQuad8 = 16;
+  const auto refuse = [&](const std::string& why) {
+    throw OutputError(fmt::format("cannot write {}: {}", plan.name, why));
+  };
+  if (order > plan.format.max_order)
+    refuse(fmt::format("the format {} has no elements of order {} that its readers know, only up to {} (-order {})",
+                       plan.format.name, order, plan.format.max_order, plan.format.max_order));
+  if (order == 2 && plan.format.quad_nodes == 9 && has_elements_of(kQuad8, 2))
+    refuse(fmt::format("the format {} has quads of 9 nodes for order 2, and the mesh has some of 8 "
+                       "(-setnumber Mesh.SecondOrderIncomplete 0, or -order 1)",
+                       plan.format.name));
+  if (order == 2 && plan.format.name == "bdf" && has_elements_of(kLine3, 1) && !has_groups())
+    refuse("the format bdf has no lines of order 2; put the surfaces alone in physical groups, or use -order 1");
+}
+
+void prepare_for_format(const OutputPlan& plan) {
+  if (plan.format.quad_nodes == 8) drop_middle_nodes();
+  if (plan.format.name == "su2") drop_loose_points();  // it takes every node for one of an element
+  if (plan.format.name != "diff") return;
+  // Gmsh's writer has room for as many nodes as it writes, and finds it by their numbers.
+  run_logged([] { ::gmsh::model::mesh::reclassifyNodes(); });
+  renumber();
+}
+
 void renumber() {
   run_logged([] {
     ::gmsh::model::mesh::renumberNodes();
@@ -251,7 +334,7 @@ void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWis
     else if (plan.format.is_msh)
       write_msh(file.path(), version, opened.msh.version != 0 || get_option("Mesh.SaveAll") != 0);
     else
-      ::gmsh::write(file.path());
+      write_other(plan, file.path());
   });
   if (!log.errors.empty()) throw OutputError(fmt::format("cannot write {}: {}", plan.path, first_errors(log)));
   if (holds_views(version))

@@ -16,6 +16,8 @@ struct OutputFormat {
   std::string extension;   ///< by which Gmsh's API chooses the format, with the dot
   double msh_version = 0;  ///< 0 if it is not MSH, or MSH in whatever version fits
   bool is_msh = false;
+  int max_order = 1;       ///< of elements that the format's readers know
+  int quad_nodes = 0;      ///< that quads of order 2 have there; 0: 8 or 9
 };
 
 /// What to write, decided before any work is done.
@@ -45,6 +47,13 @@ StagedFile stage(const OutputPlan& plan, TemporaryNames* names = nullptr);
 /// \pre the model is empty: nothing has been opened yet
 /// \throws OutputError if this build of Gmsh cannot write the format at all
 void check_format(const OutputPlan& plan, TemporaryNames* names = nullptr);
+
+/// Whether the format has such elements. \throws OutputError if not, or if quads of order 2 lack the node in the middle that they
+/// have there
+void check_elements(const OutputPlan& plan, int order);
+
+/// Changes of the model that the format's readers ask for.
+void prepare_for_format(const OutputPlan& plan);
 
 /// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
 void renumber();
