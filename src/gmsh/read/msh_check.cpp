@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "gmsh/read/msh_types.hpp"
+#include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
 
@@ -22,8 +23,9 @@ bool NodeSet::has(long long tag) const {
 
 void MshState::check_node_tag(long long tag) const {
   if (tag > std::numeric_limits<int>::max())
-    in.fail(fmt::format("has node numbers up to {}: they leave no room (the largest for Gmsh is {}); renumber the mesh",
-                        tag, std::numeric_limits<int>::max()));
+    throw InputError(
+        fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh", in.path(),
+                    tag, std::numeric_limits<int>::max()));
   if (tag < (version < 4 ? 0 : 1)) in.fail(fmt::format("has a node with the number {}", tag));
 }
 
