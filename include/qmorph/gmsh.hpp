@@ -16,21 +16,21 @@ namespace qmorph {
 
 /// What became of one surface.
 enum class SurfaceOutcome {
-  kConverted,     ///< its triangles are quads now
-  kAlreadyQuads,  ///< it had no triangle and is as it was
-  kLeft,          ///< it could not be converted and is as it was; `reason` says why
+  converted,     ///< its triangles are quads now
+  already_quads,  ///< it had no triangle and is as it was
+  left,          ///< it could not be converted and is as it was; `reason` says why
 };
 
 /// One surface, before and after.
 struct SurfaceReport {
   int tag = 0;
   std::string name;  ///< of its first physical group, or empty
-  SurfaceOutcome outcome = SurfaceOutcome::kLeft;
-  std::string reason;                 ///< of kLeft: what is wrong, where, and what to do
+  SurfaceOutcome outcome = SurfaceOutcome::left;
+  std::string reason;                 ///< of left: what is wrong, where, and what to do
   std::vector<std::string> warnings;  ///< of a surface that was converted all the same
   std::size_t triangles_in = 0, quads_in = 0;
   std::size_t triangles_out = 0, quads_out = 0;
-  Quality quality;  ///< of what came out; all defaults for kLeft
+  Quality quality;  ///< of what came out; all defaults for left
   ConversionStats stats;
   double seconds = 0;
 };
@@ -49,7 +49,7 @@ struct ModelReport {
 ///
 /// Line elements, point elements, curve nodes, physical groups, entities and all other surfaces stay as they are;
 /// new nodes and elements get tags that nothing else has. A surface that cannot be converted is left as it
-/// was and reported as kLeft.
+/// was and reported as left.
 /// \param surfaces tags of the surfaces to convert; all if empty. A tag that the model does not have is a
 ///        UsageError.
 /// \pre Gmsh is initialised, and called from this thread only. Gmsh's logger is not running.
@@ -59,10 +59,10 @@ ModelReport recombine(const std::vector<int>& surfaces = {}, const Options& opti
 
 /// The same for surfaces that consist of quads already, or of quads and triangles, as Gmsh's own recombination leaves
 /// them: all their elements may change, and what comes out has better quads (see `improve()` of qmorph/convert.hpp).
-/// Surfaces come out as kConverted or kLeft.
+/// Surfaces come out as converted or left.
 ModelReport improve_quads(const std::vector<int>& surfaces = {}, const Options& options = {});
 
-/// Figures of surfaces as they are; nothing changes. Surfaces come out as kAlreadyQuads, whatever they consist of, those
+/// Figures of surfaces as they are; nothing changes. Surfaces come out as already_quads, whatever they consist of, those
 /// that have no figures (not a manifold, no orientation) with a reason.
 ModelReport measure(const std::vector<int>& surfaces = {});
 

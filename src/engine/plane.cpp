@@ -1,7 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "engine/regions.hpp"
 #include "qmorph/error.hpp"
@@ -58,13 +57,6 @@ Plane axes_for(const Vector3d& normal) {
 }
 
 }  // namespace
-
-std::string describe(const Vector3d& p) {
-  std::ostringstream text;
-  text.precision(6);
-  text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
-  return text.str();
-}
 
 Plane fit_plane(const Patch& patch) {
   require_finite(patch);

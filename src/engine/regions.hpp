@@ -2,9 +2,9 @@
 /// A surface, laid into its plane and cut along its constraints.
 
 #include <Eigen/Geometry>
-#include <string>
 #include <vector>
 
+#include "geometry/describe.hpp"
 #include "geometry/vec2.hpp"
 #include "qmorph/patch.hpp"
 
@@ -39,8 +39,5 @@ struct Region {
 /// The regions' triangles follow one another along a Z-curve.
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
-
-/// "(x, y, z)" for messages.
-std::string describe(const Eigen::Vector3d& p);
 
 }  // namespace qmorph

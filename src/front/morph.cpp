@@ -29,34 +29,31 @@ class Morph {
         check_(check),
         recorder_(recorder) {}
 
-  MorphCounts run(const std::function<void(double)>& progress) {
+  void run(const std::function<void(double)>& progress) {
     start();
     const std::size_t quads_expected = mesh_.face_slots() / 2 + 1;
     const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
     for (int round = 0; round < kMostRounds; ++round) {
-      const std::size_t made_before = made();
+      const std::size_t made_before = made_;
       for (Base base; (base = next_base()).h != kNone;) {
-        if (++steps_ > most_steps) return counts_;
-        if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made()) / double(quads_expected)));
+        if (++steps_ > most_steps) return;
+        if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made_) / double(quads_expected)));
         if (!advance(base)) set_aside(base.h);
         if (check_) check();
       }
-      if (made() == made_before) break;
+      if (made_ == made_before) break;
       for (Index h : aside_)
         if (mesh_.is_live_half_edge(h) && front_.contains(h)) enter(h, front_.state(h));
       aside_.clear();
     }
-    return counts_;
   }
 
  private:
-  std::size_t made() const { return counts_.quads + counts_.seams + counts_.transition_seams + counts_.small_loops; }
 
   /// Thesis 3.5.3: not selectable until something around the edge has changed.
   void set_aside(Index h) {
     is_aside_.set(h, true);
     aside_.push_back(h);
-    ++counts_.set_aside;
   }
   void enter(Index h, State state, bool forced = false) {
     is_aside_.set(h, false);
@@ -106,10 +103,8 @@ class Morph {
     if (!forced && (special_case(base, base.before, base.h) || special_case(base, base.h, base.after))) return true;
     if (!forced && refine(base.h)) return true;
     if (const SmallLoop loop = find_small_loop(step_, base); loop.size != 0)
-      if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, loop); }))
-        return ++counts_.small_loops, true;
-    if (attempt(FilmStep::quad, [&] { return make_quad(base); })) return ++counts_.quads, true;
-    return false;
+      if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, loop); })) return true;
+    return attempt(FilmStep::quad, [&] { return make_quad(base); });
   }
 
   /// Runs a step in a transaction and brings the front up to date if it succeeded.
@@ -124,6 +119,7 @@ class Morph {
       return false;
     }
     commit();
+    made_ += kind != FilmStep::transition_split && kind != FilmStep::refinement;
     for (const auto& [a, b] : joins_) join(a, b);
     if (recorder_) recorder_->record(kind, base_origin_, base_target_, step_.notes, front_);
     reclassify();
@@ -184,21 +180,15 @@ class Morph {
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
     if (front_.is_angle_below(in, out, std::max(options_.seam_angle, options_.seam_angle_many)) &&
         front_.is_angle_below(in, out, seam_angle(mesh_.target(in)))) {
-      if (transition) {
-        if (attempt(FilmStep::transition_seam, [&] { return transition_seam(step_, in, out); }))
-          return ++counts_.transition_seams, true;
-      } else if (attempt(FilmStep::seam, [&] { return seam(step_, in, out); })) {
-        return ++counts_.seams, true;
-      }
-      return false;
+      if (transition) return attempt(FilmStep::transition_seam, [&] { return transition_seam(step_, in, out); });
+      return attempt(FilmStep::seam, [&] { return seam(step_, in, out); });
     }
     if (!transition || base.state.corners() == 2) return false;
     return split(FilmStep::transition_split, l1 > l2 ? in : out, mesh_.target(in));
   }
 
   bool split(FilmStep kind, Index longer, Index k) {
-    return attempt(kind, [&] { return (forced_ = transition_split(step_, longer, k)) != kNone; }) &&
-           (++counts_.transition_splits, true);
+    return attempt(kind, [&] { return (forced_ = transition_split(step_, longer, k)) != kNone; });
   }
 
   /// Where the input gets finer than the front, the front has to follow, whatever its neighbours' lengths.
@@ -284,8 +274,8 @@ class Morph {
   Step step_;
   FrontOptions options_;
   bool check_;
-  MorphCounts counts_;
   std::size_t steps_ = 0;
+  std::size_t made_ = 0;  ///< steps that were no splits
   LoggedColumn<bool> is_aside_;
   std::vector<Index> aside_;
   std::vector<State> states_;  ///< of front edges, by half-edge, as they were last looked at
@@ -299,9 +289,9 @@ class Morph {
 
 }  // namespace
 
-MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
-                  const std::function<void(double)>& progress, FilmRecorder* recorder) {
-  return Morph(mesh, options, check_each_step, recorder).run(progress);
+void morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
+           const std::function<void(double)>& progress, FilmRecorder* recorder) {
+  Morph(mesh, options, check_each_step, recorder).run(progress);
 }
 
 }  // namespace qmorph::front

@@ -93,17 +93,17 @@ Json even_json(const EvenReport& even) {
 ConversionStats sum_stats(const ModelReport& model) {
   ConversionStats sum;
   for (const SurfaceReport& surface : model.surfaces)
-    if (surface.outcome == SurfaceOutcome::kConverted) sum.add(surface.stats);
+    if (surface.outcome == SurfaceOutcome::converted) sum.add(surface.stats);
   return sum;
 }
 
 const char* outcome_name(SurfaceOutcome outcome) {
   switch (outcome) {
-    case SurfaceOutcome::kConverted:
+    case SurfaceOutcome::converted:
       return "converted";
-    case SurfaceOutcome::kAlreadyQuads:
+    case SurfaceOutcome::already_quads:
       return "already quads";
-    case SurfaceOutcome::kLeft:
+    case SurfaceOutcome::left:
       return "left as it was";
   }
   return "";
@@ -118,8 +118,8 @@ Json surface_json(const SurfaceReport& s) {
   json["warnings"] = s.warnings;
   json["before"] = {{"triangles", s.triangles_in}, {"quads", s.quads_in}};
   json["after"] = {{"triangles", s.triangles_out}, {"quads", s.quads_out}};
-  if (s.outcome != SurfaceOutcome::kLeft) json["quality"] = quality_json(s.quality);
-  if (s.outcome == SurfaceOutcome::kConverted) json["engine"] = engine_json(s.stats);
+  if (s.outcome != SurfaceOutcome::left) json["quality"] = quality_json(s.quality);
+  if (s.outcome == SurfaceOutcome::converted) json["engine"] = engine_json(s.stats);
   json["seconds"] = s.seconds;
   return json;
 }

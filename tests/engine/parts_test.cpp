@@ -90,6 +90,15 @@ TEST_CASE("parts: a region that is not much larger than a part stays whole and a
   }
 }
 
+TEST_CASE("parts: cuts that leave nothing on one side are none, and no triangle is lost") {
+  for (Sample& sample : samples(60, 40))
+    for (std::size_t size : {1, 2, 3}) {
+      Mesh mesh = sample.mesh;
+      const Division division = divide(mesh, size);
+      CHECK(triangles_in(take_apart(mesh, division)) == count(mesh).faces);
+    }
+}
+
 TEST_CASE("parts: parts that nobody has worked on are the region again when they are joined") {
   for (Sample& sample : samples(30, 4 * kPart)) {
     const Division division = divide(sample.mesh, kPart);

@@ -43,7 +43,7 @@ TEST_CASE("improve_quads: Gmsh's quads become better ones, and nothing else chan
     ::gmsh::write(directory / "out.msh");
     const Snapshot before = read_snapshot(directory / "in.msh"), after = read_snapshot(directory / "out.msh");
 
-    CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+    CHECK(report.count(SurfaceOutcome::converted) == 2);
     CHECK(report.surfaces[0].quads_in > 0);
     for (const SurfaceReport& surface : report.surfaces) {
       CHECK(surface.triangles_out <= surface.stats.odd_regions);

@@ -36,7 +36,7 @@ TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
   const double abort_on_error = option("General.AbortOnError"), verbosity = option("General.Verbosity");
   const std::size_t lines = count_elements(adapter::kLine2);
   const ModelReport report = recombine();
-  CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+  CHECK(report.count(SurfaceOutcome::converted) == 2);
   CHECK(report.surfaces[0].name == "left");
   CHECK(count_elements(adapter::kQuad4) == report.total.quads);
   CHECK(count_elements(adapter::kTriangle3) == report.total.triangles);
@@ -48,14 +48,14 @@ TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
   // A second run in the same process sees nothing of the first.
   const ModelReport again = recombine({2});
   CHECK(again.surfaces.size() == 1);
-  CHECK(again.count(SurfaceOutcome::kAlreadyQuads) == 1);
+  CHECK(again.count(SurfaceOutcome::already_quads) == 1);
 }
 
 TEST_CASE("recombine: qmorph::gmsh::recombine(options) is the same for all surfaces") {
   const RunningGmsh gmsh;
   build_two_squares();
   const ModelReport report = qmorph::gmsh::recombine(Options());
-  CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+  CHECK(report.count(SurfaceOutcome::converted) == 2);
   CHECK(count_elements(adapter::kTriangle3) == 0);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("recombine: nodes of CAD surfaces keep parameters, and a volume can be
   ::gmsh::model::occ::synchronize();
   ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.25);
   ::gmsh::model::mesh::generate(2);
-  CHECK(recombine().count(SurfaceOutcome::kConverted) == 6);
+  CHECK(recombine().count(SurfaceOutcome::converted) == 6);
   const adapter::ModelMesh mesh = adapter::read_model_mesh();
   for (const auto& entity : mesh.entities) {
     if (entity.dim != 2) continue;

@@ -19,5 +19,5 @@ int main() {
 
   gmsh::write("rectangle.msh");
   gmsh::finalize();
-  return report.count(qmorph::SurfaceOutcome::kConverted) == 1 && report.total.triangles == 0 ? 0 : 1;
+  return report.count(qmorph::SurfaceOutcome::converted) == 1 && report.total.triangles == 0 ? 0 : 1;
 }

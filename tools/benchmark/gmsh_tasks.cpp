@@ -242,7 +242,7 @@ Figures qmorph_recombines(const std::string& in, const std::string& out, int thr
     qmorph::Options options;
     options.threads = threads;
     const qmorph::ModelReport report = qmorph::recombine({}, options);
-    if (report.count(qmorph::SurfaceOutcome::kLeft) != 0) throw std::runtime_error("a surface was not converted");
+    if (report.count(qmorph::SurfaceOutcome::left) != 0) throw std::runtime_error("a surface was not converted");
     figures.read = report.read_seconds;
     figures.convert = report.convert_seconds;
     figures.check = report.check_seconds;

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "gmsh/convert/check.hpp"
 #include "kernel/sort_unique.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -123,7 +123,7 @@ std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurf
     shape.points = result.points;
     shape.triangles = result.triangles;
     shape.quads = result.quads;
-    if (patch_normal(shape).dot(patch_normal(patch)) < 0) {
+    if (mean_normal(shape).dot(mean_normal(patch)) < 0) {
       for (auto& triangle : result.triangles) std::reverse(triangle.begin(), triangle.end());
       for (auto& quad : result.quads) std::reverse(quad.begin(), quad.end());
     }

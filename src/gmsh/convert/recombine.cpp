@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "gmsh/convert/check.hpp"
+#include "geometry/describe.hpp"
 #include "gmsh/convert/periodic.hpp"
 #include "gmsh/convert/replace.hpp"
 #include "gmsh/model/high_order.hpp"
@@ -15,6 +15,7 @@
 #include "gmsh/model/patches.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/gmsh.hpp"
 
@@ -87,9 +88,9 @@ std::pair<std::size_t, std::size_t> count_elements(const EntityMesh& entity) {
 /// Quads of the input stay as they are, and what comes out must not have an inverted element.
 void refuse_bad_quads(const SurfaceMesh& surface) {
   for (const SurfacePart& part : surface.parts)
-    if (const BadQuad bad = find_bad_quad(part.patch); bad.quad != kNone)
-      throw SurfaceError(fmt::format("its quad {} is inverted or not convex {}; mend it, or cut it into triangles",
-                                     part.quad_tags[bad.quad], bad.where));
+    if (const std::optional<BadQuad> bad = find_bad_quad(part.patch))
+      throw SurfaceError(fmt::format("its quad {} is inverted or not convex at {}; mend it, or cut it into triangles",
+                                     part.quad_tags[bad->quad], describe(bad->place)));
 }
 
 /// What is done to a surface: its triangles are converted, or its quads improved as well, or nothing.
@@ -259,7 +260,7 @@ void Run::run_engine(std::vector<Job>& jobs) {
   for (const Job& job : jobs)
     if (!job.is_left_alone)
       for (const SurfacePart& part : job.converted[0].surface.parts) patches.push_back(&part.patch);
-  const std::vector<Outcome> outcomes =
+  std::vector<Outcome> outcomes =
       task_ == Task::improve ? improve_all(patches, options_) : convert_all(patches, options_);
   auto outcome = outcomes.begin();
   for (Job& job : jobs) {
@@ -267,7 +268,7 @@ void Run::run_engine(std::vector<Job>& jobs) {
     std::string reason;
     for (std::size_t p = 0; p < job.converted[0].surface.parts.size(); ++p, ++outcome) {
       job.reports[0].seconds += outcome->seconds;
-      if (outcome->mesh) job.converted[0].results.push_back(*outcome->mesh);
+      if (outcome->mesh) job.converted[0].results.push_back(std::move(*outcome->mesh));
       if (reason.empty()) reason = outcome->reason;
     }
     if (reason.empty()) continue;
@@ -328,8 +329,8 @@ void Run::check(const ConvertedSurface& converted) const {
   const InputQuads quads_are = task_ == Task::convert ? InputQuads::kept : InputQuads::free;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const SurfacePart& part = converted.surface.parts[p];
-    if (const std::string defect = find_defect(part.patch, converted.results[p], quads_are); !defect.empty())
-      throw SurfaceError("the result is not valid: " + defect + "; this is a mistake of qmorph");
+    if (const std::optional<Defect> defect = find_defect(part.patch, converted.results[p], quads_are))
+      throw SurfaceError("the result is not valid: " + defect->what + "; this is a mistake of qmorph");
     const std::string where =
         find_bent_corner(model_.mesh, model_.mesh.entities[converted.surface.entity], part, converted.results[p]);
     if (!where.empty())
@@ -344,13 +345,13 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.triangles_out = report.quads_out = 0;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const QuadMesh& result = converted.results[p];
-    quality.add(result.points, result.triangles, result.quads, patch_normal(converted.surface.parts[p].patch));
+    quality.add(result.points, result.triangles, result.quads, mean_normal(converted.surface.parts[p].patch));
     report.triangles_out += result.triangles.size();
     report.quads_out += result.quads.size();
     report.stats.add(result.stats);
   }
   total_.add(quality);
-  report.outcome = SurfaceOutcome::kConverted;
+  report.outcome = SurfaceOutcome::converted;
   report.warnings = converted.surface.warnings;
   report.quality = quality.result();
   converted_.push_back(std::move(converted));
@@ -358,7 +359,7 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
 }
 
 void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
-  report.outcome = SurfaceOutcome::kAlreadyQuads;
+  report.outcome = SurfaceOutcome::already_quads;
   SurfaceMesh surface;
   try {
     surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
@@ -373,7 +374,7 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
   try {
     if (task_ == Task::convert) refuse_bad_quads(surface);
   } catch (const SurfaceError& error) {
-    report.outcome = SurfaceOutcome::kLeft;
+    report.outcome = SurfaceOutcome::left;
     report.reason = error.what();
     return;
   }

@@ -9,8 +9,8 @@
 #include <set>
 #include <unordered_map>
 
-#include "gmsh/convert/check.hpp"
 #include "gmsh/session/element_types.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -256,6 +256,7 @@ void raise_order(const ModelMesh& mesh, const EntityMesh& before, bool incomplet
 
 std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, const SurfacePart& part,
                              const QuadMesh& result) {
+  if (order_of(before) == 1) return {};
   EdgeNodes edges;
   for (const ElementBlock& block : before.blocks) learn_edges(block, edges);
   const auto line = [&](Index a, Index b) {
@@ -268,7 +269,7 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, co
     points.push_back(result.points[b]);
     return points;
   };
-  const Eigen::Vector3d normal = patch_normal(part.patch);
+  const Eigen::Vector3d normal = mean_normal(part.patch);
   const auto bent = [&](const auto& element) {
     for (std::size_t k = 0; k < element.size(); ++k) {
       const Index next = element[(k + 1) % element.size()], last = element[(k + element.size() - 1) % element.size()];

@@ -1,0 +1,10 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+
+namespace qmorph {
+
+/// "(x, y, z)" with six digits, for messages.
+std::string describe(const Eigen::Vector3d& p);
+
+}  // namespace qmorph
