@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A second opinion on what the engine has made, against the input and in space: for those who must know before they use it.
 

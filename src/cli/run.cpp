@@ -255,7 +255,7 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
     const StdoutAsStderr redirected;
     const adapter::Session session(request.gmsh_arguments);
     adapter::open_model(request.input, {request.merged, {}, true, request.ignore_periodicity});
-    model = measure(request.surfaces);
+    model = session::measure_surfaces(request.surfaces);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', out);
@@ -267,7 +267,9 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
   Options options = engine_options(request);
-  set_what_to_keep(request, options);
+  const report::Wishes wishes = what_to_keep(request);
+  report::Recorder recorder(wishes);
+  if (wishes.any()) options.observer = &recorder;
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   adapter::Session session(request.gmsh_arguments);
@@ -275,13 +277,13 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   adapter::OpenedModel opened = open(request, err);
 
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
-  std::optional<Progress> bar;
+  std::optional<ProgressBar> bar;
   if (watched) options.progress = std::ref(bar.emplace(err));
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
-  if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
-  const ModelReport model =
-      request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
+  if (request.all_quad) even = session::make_even(request.surfaces, request.keep_curves);
+  const ModelReport model = request.cleanup_only ? session::improve_quads(options, request.surfaces)
+                                                 : session::recombine(options, request.surfaces);
   bar.reset();
   if (model.surfaces.empty()) {
     err << "qmorph: nothing to convert: " << (request.from_stdin ? "standard input" : request.input)
@@ -305,7 +307,7 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
-  std::vector<SideFile> others = make_side_files(request, before, model, facts);
+  std::vector<SideFile> others = make_side_files(request, before, model, recorder, facts);
   if (request.views) {
     std::vector<SideFile> views = write_views(request, opened, plan.path, file);
     if (request.to_stdout && !views.empty())

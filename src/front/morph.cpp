@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "front/mark_set.hpp"
@@ -20,17 +21,29 @@ constexpr int kMostRounds = 8;
 
 class Morph {
  public:
-  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check, FilmRecorder* recorder)
+  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check)
       : mesh_(mesh),
         front_(mesh, options),
         colours_(mesh, front_),
         step_{mesh, front_, colours_, options, {}, {}},
         options_(options),
-        check_(check),
-        recorder_(recorder) {}
-
-  void run(const std::function<void(double)>& progress) {
+        check_(check) {
     start();
+  }
+
+  /// Before run().
+  void watch(Observer& observer, const FlatFrame& frame) {
+    reporter_.emplace(mesh_, front_, states_, options_.corner_angle, observer, frame);
+    if (!reporter_->is_watched()) reporter_.reset();
+  }
+
+  std::unique_ptr<FrontObserver> run(const std::function<void(double)>& progress) {
+    advance_all(progress);
+    return reporter_ ? reporter_->finish() : nullptr;
+  }
+
+ private:
+  void advance_all(const std::function<void(double)>& progress) {
     const std::size_t quads_expected = mesh_.face_slots() / 2 + 1;
     const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -47,8 +60,6 @@ class Morph {
       aside_.clear();
     }
   }
-
- private:
 
   /// Thesis 3.5.3: not selectable until something around the edge has changed.
   void set_aside(Index h) {
@@ -103,13 +114,13 @@ class Morph {
     if (!forced && (special_case(base, base.before, base.h) || special_case(base, base.h, base.after))) return true;
     if (!forced && refine(base.h)) return true;
     if (const SmallLoop loop = find_small_loop(step_, base); loop.size != 0)
-      if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, loop); })) return true;
-    return attempt(FilmStep::quad, [&] { return make_quad(base); });
+      if (attempt(StepKind::small_loop, [&] { return close_small_loop(step_, loop); })) return true;
+    return attempt(StepKind::quad, [&] { return make_quad(base); });
   }
 
   /// Runs a step in a transaction and brings the front up to date if it succeeded.
   template <class Operation>
-  bool attempt(FilmStep kind, const Operation& operation) {
+  bool attempt(StepKind kind, const Operation& operation) {
     begin();
     step_.moved.clear();
     step_.notes = {};
@@ -119,10 +130,10 @@ class Morph {
       return false;
     }
     commit();
-    made_ += kind != FilmStep::transition_split && kind != FilmStep::refinement;
+    made_ += kind != StepKind::transition_split && kind != StepKind::refinement;
     for (const auto& [a, b] : joins_) join(a, b);
-    if (recorder_) recorder_->record(kind, base_origin_, base_target_, step_.notes, front_);
     reclassify();
+    if (reporter_) reporter_->report({kind, base_origin_, base_target_, step_.notes, edges_});
     return true;
   }
 
@@ -180,14 +191,14 @@ class Morph {
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
     if (front_.is_angle_below(in, out, std::max(options_.seam_angle, options_.seam_angle_many)) &&
         front_.is_angle_below(in, out, seam_angle(mesh_.target(in)))) {
-      if (transition) return attempt(FilmStep::transition_seam, [&] { return transition_seam(step_, in, out); });
-      return attempt(FilmStep::seam, [&] { return seam(step_, in, out); });
+      if (transition) return attempt(StepKind::transition_seam, [&] { return transition_seam(step_, in, out); });
+      return attempt(StepKind::seam, [&] { return seam(step_, in, out); });
     }
     if (!transition || base.state.corners() == 2) return false;
-    return split(FilmStep::transition_split, l1 > l2 ? in : out, mesh_.target(in));
+    return split(StepKind::transition_split, l1 > l2 ? in : out, mesh_.target(in));
   }
 
-  bool split(FilmStep kind, Index longer, Index k) {
+  bool split(StepKind kind, Index longer, Index k) {
     return attempt(kind, [&] { return (forced_ = transition_split(step_, longer, k)) != kNone; });
   }
 
@@ -196,7 +207,7 @@ class Morph {
     const Index apex = mesh_.target(mesh_.next(base)), from = mesh_.origin(base), to = mesh_.target(base);
     const double size = std::min({step_.size[from], step_.size[to], step_.size[apex]});
     if (mesh_.length(base) < kTooLong * size) return false;
-    return split(FilmStep::refinement, base, step_.size[from] < step_.size[to] ? from : to);
+    return split(StepKind::refinement, base, step_.size[from] < step_.size[to] ? from : to);
   }
 
   double seam_angle(Index v) const {
@@ -283,15 +294,16 @@ class Morph {
   std::vector<Index> edges_;  ///< to enter anew
   std::vector<std::pair<Index, Index>> joins_;
   Index forced_ = kNone;
-  FilmRecorder* recorder_;  ///< or null
+  std::optional<StepReporter> reporter_;  ///< if anybody watches
   Index base_origin_ = kNone, base_target_ = kNone;
 };
 
 }  // namespace
 
-void morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
-           const std::function<void(double)>& progress, FilmRecorder* recorder) {
-  Morph(mesh, options, check_each_step, recorder).run(progress);
+std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options, const MorphSettings& settings) {
+  Morph morph(mesh, options, settings.check_each_step);
+  if (settings.observer) morph.watch(*settings.observer, settings.frame);
+  return morph.run(settings.progress);
 }
 
 }  // namespace qmorph::front

@@ -125,11 +125,12 @@ TEST_CASE(
   std::size_t failed = 0;
   const auto all = samples(60, 4 * kPart);
   for (const Sample& sample : all) {
-    ConversionStats stats;
-    const auto mesh = convert_in_parts(sample.mesh, {}, sample.plane, options, stats, nullptr);
+    ConversionReport report;
+    Record record;
+    const auto mesh = convert_in_parts(sample.mesh, {}, sample.plane, options, report, record);
     REQUIRE(mesh);
     CHECK(find_defects(*mesh, false).empty());
-    failed += !find_fault(*mesh, sample.region, sample.plane).empty();
+    failed += find_fault(*mesh, sample.region, sample.plane).has_value();
   }
   CHECK(failed <= 1);
 }

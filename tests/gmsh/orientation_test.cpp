@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Which way the elements of a surface face.
 #include "gmsh/model/orientation.hpp"
 

@@ -26,9 +26,14 @@ std::map<Index, Index> local_numbers(const SurfacePart& part) {
   return local;
 }
 
+ErrorDetails periodic_with(const PeriodicLink& link) {
+  return {.kind = ErrorKind::periodic, .subject = ErrorSubject{ErrorSubject::Kind::surface, std::size_t(link.master)}};
+}
+
 [[noreturn]] void refuse_image(const PeriodicLink& link) {
   throw SurfaceError(
-      fmt::format("it is periodic with surface {}, and its mesh is not the image of that one's", link.master));
+      fmt::format("it is periodic with surface {}, and its mesh is not the image of that one's", link.master),
+      periodic_with(link));
 }
 
 /// Local numbers of the slave's part for those of the master's.
@@ -79,7 +84,8 @@ std::vector<PeriodicFamily> find_families(const std::vector<PeriodicLink>& links
 
 void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& master, SurfaceMesh& slave) {
   if (link.transformation.size() != 16)
-    throw SurfaceError(fmt::format("it is periodic with surface {}, and nothing says how", link.master));
+    throw SurfaceError(fmt::format("it is periodic with surface {}, and nothing says how", link.master),
+                       periodic_with(link));
   const std::map<Index, Index> rows = row_map(link, mesh);
   if (slave.parts.size() != master.parts.size()) refuse_image(link);
   std::vector<SurfacePart> ordered;
@@ -90,7 +96,8 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
     });
     if (found == slave.parts.end()) refuse_image(link);
     if (!found->patch.quads.empty() && !found->quad_tags.empty())
-      throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master));
+      throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master),
+                         periodic_with(link));
     const std::vector<Index> image = image_of_part(link, rows, part, *found);
     std::vector<Index> back(image.size());
     for (Index i = 0; i < image.size(); ++i) back[image[i]] = i;
