@@ -1,6 +1,7 @@
 #include "gmsh/convert/periodic.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,7 @@
 #include "gmsh/read/meshing.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
