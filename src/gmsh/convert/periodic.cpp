@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -12,6 +13,10 @@
 
 namespace qmorph::adapter {
 namespace {
+
+/// How far a node may be from where the transformation puts its master's, in lengths of the shortest edge at it: files
+/// round, and Gmsh gives a node that a file has no pair for the nearest one, however far that is.
+constexpr double kImageTolerance = 0.01;
 
 /// From rows of the master's nodes to rows of the slave's.
 std::map<Index, Index> row_map(const PeriodicLink& link, const ModelMesh& mesh) {
@@ -52,6 +57,35 @@ std::vector<Index> image_of_part(const PeriodicLink& link, const std::map<Index,
       slave.patch.quads.size() != master.patch.quads.size())
     refuse_image(link);
   return image;
+}
+
+/// For each point the length of the shortest edge at it.
+std::vector<double> shortest_edges(const Patch& patch) {
+  std::vector<double> shortest(patch.points.size(), std::numeric_limits<double>::infinity());
+  const auto visit = [&](const auto& polygons) {
+    for (const auto& polygon : polygons)
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        const double length = (patch.points[a] - patch.points[b]).norm();
+        shortest[a] = std::min(shortest[a], length);
+        shortest[b] = std::min(shortest[b], length);
+      }
+  };
+  visit(patch.triangles);
+  visit(patch.quads);
+  return shortest;
+}
+
+/// Pairs alone do not make an image: each node has to be where its master's is moved to, and no two in one place.
+void check_places(const PeriodicLink& link, const Patch& master, const Patch& slave, const std::vector<Index>& image) {
+  const std::vector<double> shortest = shortest_edges(slave);
+  std::vector<bool> taken(image.size());
+  for (Index i = 0; i < image.size(); ++i) {
+    const Eigen::Vector3d place = transformed(link.transformation, master.points[i]);
+    const bool fits = (slave.points[image[i]] - place).norm() <= kImageTolerance * shortest[image[i]];
+    if (!fits || taken[image[i]]) refuse_image(link);
+    taken[image[i]] = true;
+  }
 }
 
 }  // namespace
@@ -99,6 +133,7 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
       throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master),
                          periodic_with(link));
     const std::vector<Index> image = image_of_part(link, rows, part, *found);
+    check_places(link, part.patch, found->patch, image);
     std::vector<Index> back(image.size());
     for (Index i = 0; i < image.size(); ++i) back[image[i]] = i;
     for (Index i : found->patch.fixed) part.patch.fixed.push_back(back[i]);
