@@ -178,7 +178,7 @@ std::string describe_death(int signal, const std::string& words) {
   std::signal(signal, SIG_DFL);
   std::raise(signal);
   signals.restore();
-  ::_exit(kBadInput);  // not reached: the signal is delivered once it is not blocked
+  ::_exit(bad_input);  // not reached: the signal is delivered once it is not blocked
 }
 
 /// \return how the child has ended. A signal that ends this process ends the child first; it is put into `ended_by`.
@@ -225,7 +225,7 @@ int run_apart(const std::vector<std::string>& arguments) {
   }
   if (!slate.has_ended && WEXITSTATUS(status) == 0) {
     std::cerr << "qmorph: Gmsh ended the program (does the script say Exit?); nothing has been written\n";
-    return kBadInput;
+    return bad_input;
   }
   if (!slate.has_ended || slate.shows_foreign_words) std::cerr << words;
   return WEXITSTATUS(status);

@@ -2,6 +2,7 @@
 #include "cli/outcome.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <ostream>
@@ -20,11 +21,11 @@ namespace {
 void print_outcome(const ModelReport& model, const std::string& output, std::ostream& err) {
   std::string left;
   for (const SurfaceReport& surface : model.surfaces)
-    if (surface.outcome == SurfaceOutcome::kLeft) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
+    if (surface.outcome == SurfaceOutcome::left) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
   if (!left.empty())
-    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::kLeft),
+    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::left),
                        model.surfaces.size(), left);
-  else if (model.count(SurfaceOutcome::kConverted) == 0)
+  else if (model.count(SurfaceOutcome::converted) == 0)
     err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has the mesh as it was\n";
 }
 
@@ -34,7 +35,7 @@ void print_triangles(const Request& request, const ModelReport& model, std::ostr
   std::size_t triangles = 0;
   std::vector<int> surfaces;
   for (const SurfaceReport& surface : model.surfaces) {
-    if (surface.outcome != SurfaceOutcome::kConverted || surface.triangles_out == 0) continue;
+    if (surface.outcome != SurfaceOutcome::converted || surface.triangles_out == 0) continue;
     triangles += surface.triangles_out;
     surfaces.push_back(surface.tag);
   }

@@ -55,7 +55,7 @@ struct ReaderError {
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 int status_of(const ModelReport& model) {
-  return model.count(SurfaceOutcome::kLeft) ? kConvertedInPart : kAllConverted;
+  return model.count(SurfaceOutcome::left) ? converted_in_part : all_converted;
 }
 
 /// Nothing has changed: the output is to be the input, byte for byte.
@@ -63,7 +63,7 @@ bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const
                   const ModelReport& model) {
   const bool same_format = opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
                            !request.msh_version && !request.binary && request.merged.empty() && !request.views;
-  const bool untouched = model.count(SurfaceOutcome::kConverted) == 0 && request.dimension != 3 &&
+  const bool untouched = model.count(SurfaceOutcome::converted) == 0 && request.dimension != 3 &&
                          !request.drop_volumes && !request.order_chosen && !request.orient && request.partitions == 0;
   return same_format && untouched;
 }
@@ -109,8 +109,8 @@ void keep_written(const std::vector<int>& unwritten, const std::string& output, 
                     output));
   std::vector<int> measured;
   for (const SurfaceReport& surface : model.surfaces)
-    if (surface.outcome != SurfaceOutcome::kLeft) measured.push_back(surface.tag);
-  model.total = measured.empty() ? Quality() : measure(measured).total;
+    if (surface.outcome != SurfaceOutcome::left) measured.push_back(surface.tag);
+  model.total = measured.empty() ? Quality() : session::measure_surfaces(measured).total;
 }
 
 /// The mesh and all the other files, or none. \param mesh null if it is in its place already
@@ -197,13 +197,13 @@ adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) 
   std::vector<std::string> files = options.merged;
   files.push_back(call.request.input);
   if (call.process.slate) limits.emplace(files);
-  call.begin(kBadInput, name + " cannot be read: Gmsh crashed");
+  call.begin(bad_input, name + " cannot be read: Gmsh crashed");
   options.when_read = [&] {
     limits.reset();
-    call.begin(kBadInput, name + " cannot be meshed: Gmsh crashed");
+    call.begin(bad_input, name + " cannot be meshed: Gmsh crashed");
   };
   adapter::OpenedModel opened = adapter::open_model(call.request.input, options);
-  call.begin(kBadInput, "a crash while qmorph worked on " + name);
+  call.begin(bad_input, "a crash while qmorph worked on " + name);
   return opened;
 }
 
@@ -237,40 +237,42 @@ int check_file(const Call& call) {
     adapter::Session session(request.gmsh_arguments);
     if (call.process.slate) session.leave();
     open_input(call, {.merged = request.merged, .no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
-    model = measure(request.surfaces);
+    model = session::measure_surfaces(request.surfaces);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', call.out);
   const std::vector<std::string> reasons = find_reasons(model, request.thresholds);
   for (const std::string& reason : reasons) call.err << "qmorph: " << reason << '\n';
-  return reasons.empty() ? kAllConverted : kNotGoodEnough;
+  return reasons.empty() ? all_converted : not_good_enough;
 }
 
 int convert_file(const Call& call) {
   const Request& request = call.request;
   const Clock::time_point start = Clock::now();
   Options options = engine_options(request);
-  set_what_to_keep(request, options);
+  const report::Wishes wishes = what_to_keep(request);
+  report::Recorder recorder(wishes);
+  if (wishes.any()) options.observer = &recorder;
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   adapter::Session session(request.gmsh_arguments);
   if (call.process.slate) session.leave();
-  const std::string cannot_write = fmt::format("cannot write {}: Gmsh crashed", plan.name);
-  call.begin(kCannotWrite, cannot_write);
+  const std::string writing = fmt::format("cannot write {}: Gmsh crashed", plan.name);
+  call.begin(cannot_write, writing);
   adapter::check_format(plan, call.names());
   adapter::OpenedModel opened = open(call, plan);
 
-  std::optional<Progress> bar;
+  std::optional<ProgressBar> bar;
   if (request.verbosity >= 1 && call.process.err_is_terminal) options.progress = std::ref(bar.emplace(call.err));
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
-  if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
-  ModelReport model =
-      request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
+  if (request.all_quad) even = session::make_even(request.surfaces, request.keep_curves);
+  ModelReport model = request.cleanup_only ? session::improve_quads(options, request.surfaces)
+                                           : session::recombine(options, request.surfaces);
   bar.reset();
   if (model.surfaces.empty()) {
     call.err << "qmorph: nothing to convert: " << name_of_input(request) << " has no surface with elements\n";
-    return kNoSurface;
+    return no_surface;
   }
   const adapter::MshWish wish{request.msh_version, request.binary};
   const std::vector<std::string> unwritten = adapter::describe_unwritten(plan, opened, wish);
@@ -283,19 +285,19 @@ int convert_file(const Call& call) {
   const Clock::time_point write_start = Clock::now();
   if (request.verbosity >= 1 && !is_as_it_was(request, plan, opened, model))
     for (const std::string& lost : unwritten) call.err << "warning: " << lost << '\n';
-  call.begin(kCannotWrite, cannot_write);
+  call.begin(cannot_write, writing);
   if (!is_as_it_was(request, plan, opened, model)) prepare_for_readers(request, plan, call.err);
   adapter::StagedFile file = adapter::stage(plan, call.names());
   call.err.call(file.path(), plan.name);
   const bool written = write(request, plan, opened, model, file);
-  const int status = bent.empty() ? status_of(model) : kConvertedInPart;
+  const int status = bent.empty() ? status_of(model) : converted_in_part;
   report::RunFacts facts{request.from_stdin ? "-" : request.input, request.to_stdout ? "-" : plan.path,
                          call.arguments, status, even};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
-  std::vector<SideFile> others = make_side_files(request, before, model, facts);
+  std::vector<SideFile> others = make_side_files(request, before, model, recorder, facts);
   if (request.views) {
     std::vector<SideFile> views = write_views(request, opened, plan.path, file);
     if (request.to_stdout && !views.empty())
@@ -336,7 +338,7 @@ int run_with_streams(Request request, const std::vector<std::string>& arguments,
 }
 
 int fail(int status, std::string_view what, std::ostream& err) {
-  err << "qmorph: " << what << (status == kBadUsage ? " (see qmorph --help)" : "") << '\n';
+  err << "qmorph: " << what << (status == bad_usage ? " (see qmorph --help)" : "") << '\n';
   return status;
 }
 
@@ -346,10 +348,10 @@ int run_request(const std::vector<std::string>& arguments, std::ostream& out, Er
   const Request request = parse(arguments);
   if (request.help) answer(help_text(), out);
   if (request.version) answer(fmt::format("qmorph {}\n", kVersion), out);
-  if (request.help || request.version) return kAllConverted;
+  if (request.help || request.version) return all_converted;
   const int status = run_with_streams(request, arguments, out, err, process);
   // Where it went wrong there is a line that says it, and nobody wants more.
-  if (process.slate) process.slate->shows_foreign_words = request.verbosity >= 2 && status <= kConvertedInPart;
+  if (process.slate) process.slate->shows_foreign_words = request.verbosity >= 2 && status <= converted_in_part;
   return status;
 }
 
@@ -362,22 +364,22 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
     hold_standard_streams();
     return run_request(arguments, out, err, process);
   } catch (const ReaderError& error) {
-    for (const std::string& complaint : error.complaints) fail(kNotGoodEnough, complaint, err);
-    return kNotGoodEnough;
+    for (const std::string& complaint : error.complaints) fail(not_good_enough, complaint, err);
+    return not_good_enough;
   } catch (const UsageError& error) {
-    return fail(kBadUsage, error.what(), err);
+    return fail(bad_usage, error.what(), err);
   } catch (const OutputError& error) {
-    return fail(kCannotWrite, error.what(), err);
+    return fail(cannot_write, error.what(), err);
   } catch (const Error& error) {
-    return fail(kBadInput, error.what(), err);
+    return fail(bad_input, error.what(), err);
   } catch (const std::bad_alloc&) {
-    return fail(kBadInput, "not enough memory", err);
+    return fail(bad_input, "not enough memory", err);
   } catch (const std::exception& error) {
-    return fail(kBadInput, fmt::format("a mistake of qmorph: {}", error.what()), err);
+    return fail(bad_input, fmt::format("a mistake of qmorph: {}", error.what()), err);
   } catch (const std::string& error) {  // Gmsh before 4.10
-    return fail(kBadInput, fmt::format("Gmsh: {}", error), err);
+    return fail(bad_input, fmt::format("Gmsh: {}", error), err);
   } catch (...) {
-    return fail(kBadInput, "a mistake of qmorph", err);
+    return fail(bad_input, "a mistake of qmorph", err);
   }
 }
 

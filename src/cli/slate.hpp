@@ -22,7 +22,7 @@ class Slate {
 
  private:
   std::array<char, 1024> trouble_{};
-  ExitStatus status_ = kBadInput;
+  ExitStatus status_ = bad_input;
 };
 
 }  // namespace qmorph::cli

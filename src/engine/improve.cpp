@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "cleanup/clean_up.hpp"
@@ -7,6 +8,7 @@
 #include "engine/collector.hpp"
 #include "engine/mixed.hpp"
 #include "engine/overlap.hpp"
+#include "engine/pipeline.hpp"
 #include "engine/prepare.hpp"
 #include "engine/surface.hpp"
 #include "kernel/sort_unique.hpp"
@@ -90,10 +92,10 @@ kernel::Mesh pair_triangles_only(const kernel::Mesh& start, const SmoothingOptio
 }
 
 /// All stages, on triangles alone: what quads leave no room for may be possible without them.
-kernel::Mesh forget_quads(const Start& start, Pipeline& pipeline) {
+kernel::Mesh forget_quads(const Start& start, const Plane& plane, Pipeline& pipeline) {
   kernel::Mesh triangles(start.region.points, start.region.triangles, start.region.open);
   for (Index v : start.region.fixed) triangles.set_fixed(v);
-  pipeline.advance_front(triangles);
+  pipeline.advance_front(triangles, plane);
   pipeline.finish(triangles);
   return triangles;
 }
@@ -102,11 +104,11 @@ kernel::Mesh forget_quads(const Start& start, Pipeline& pipeline) {
 kernel::Mesh make_anew(const Start& start, const Plane& plane, Pipeline& pipeline) {
   kernel::Mesh mesh = start.mesh;
   pipeline.finish(mesh);
-  const std::string fault = find_fault(mesh, start.region, plane);
-  if (fault.empty()) return mesh;
+  const std::optional<SurfaceError> fault = find_fault(mesh, start.region, plane);
+  if (!fault) return mesh;
 
-  kernel::Mesh triangles = forget_quads(start, pipeline);
-  if (!find_fault(triangles, start.region, plane).empty()) throw SurfaceError(fault);
+  kernel::Mesh triangles = forget_quads(start, plane, pipeline);
+  if (find_fault(triangles, start.region, plane)) throw *fault;
   return triangles;
 }
 
@@ -114,13 +116,13 @@ kernel::Mesh make_anew(const Start& start, const Plane& plane, Pipeline& pipelin
 /// it was; without a thought of the quads that were there. Where triangles can go in none of these ways, the one with the fewest poor
 /// quads, and it is counted.
 kernel::Mesh improve_region(const Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            ConversionStats& stats, Snapshots* snapshots) {
+                            ConversionReport& report, Record& record) {
   const Figures before = figures_of(input);
-  Pipeline pipeline(options, stats, snapshots, input);
+  Pipeline pipeline(options, report, record, input);
   kernel::Mesh best = make_anew(start, plane, pipeline);
   Figures reached = figures_of(best);
   const auto consider = [&](kernel::Mesh mesh) {
-    if (!find_fault(mesh, start.region, plane).empty()) return;
+    if (find_fault(mesh, start.region, plane)) return;
     const Figures figures = figures_of(mesh);
     const bool fewer_poor = std::pair(figures.poor, -figures.mean) < std::pair(reached.poor, -reached.mean);
     if (figures.is_worse_than(before) && !fewer_poor) return;
@@ -130,13 +132,13 @@ kernel::Mesh improve_region(const Start& start, const kernel::Mesh& input, const
   for (const bool mends_all : {true, false})
     if (reached.is_worse_than(before)) consider(pair_triangles_only(start.mesh, options.smoothing, mends_all));
   if (reached.is_worse_than(before)) consider(input);
-  if (reached.is_worse_than(before)) consider(forget_quads(start, pipeline));
-  if (reached.is_worse_than(before)) ++stats.worse_regions;
-  if (snapshots) snapshots->back() = best;
+  if (reached.is_worse_than(before)) consider(forget_quads(start, plane, pipeline));
+  if (reached.is_worse_than(before)) ++report.worse_regions;
+  if (wants_stages(options)) record.stages.back() = best;
   return best;
 }
 
-QuadMesh improve_patch(const Patch& patch, const Options& options) {
+SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
@@ -150,15 +152,15 @@ QuadMesh improve_patch(const Patch& patch, const Options& options) {
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options, [&](std::size_t r, const Options& own, ConversionStats& stats, Snapshots* snapshots) {
+      surface, options, [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
         const kernel::Mesh input = join_halves(surface.regions[r], triangles);
-        return improve_region(starts[r], input, surface.plane, own, stats, snapshots);
+        return improve_region(starts[r], input, surface.plane, own, report, record);
       });
 }
 
 }  // namespace
 
-QuadMesh improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
+Conversion improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
 
 std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options) {
   return work_on_patches(patches, options, improve_patch);

@@ -17,8 +17,9 @@ using Eigen::Vector3d;
 void require_finite(const Patch& patch) {
   for (std::size_t i = 0; i < patch.points.size(); ++i)
     if (!patch.points[i].allFinite())
-      throw SurfaceError("node " + std::to_string(i) + " has the coordinates " + describe(patch.points[i]) +
-                         "; repair the input");
+      throw SurfaceError(
+          "node " + std::to_string(i) + " has the coordinates " + describe(patch.points[i]) + "; repair the input",
+          {.kind = ErrorKind::not_finite, .subject = node_row(i)});
 }
 
 /// Of the triangles: the box around them, and twice their area as a vector.
@@ -65,7 +66,8 @@ Plane fit_plane(const Patch& patch) {
   Vector3d normal = extent.area;
   if (!(normal.norm() > 0))
     throw SurfaceError("its triangles have no area in sum, near " + describe(extent.low) +
-                       "; the surface is closed, folded or degenerate");
+                           "; the surface is closed, folded or degenerate",
+                       {.kind = ErrorKind::no_area, .place = extent.low});
   // Noise out of the plane must not tilt a coordinate plane.
   for (int i = 0; i < 3; ++i)
     if (std::abs(normal[i]) < 1e-12 * normal.norm()) normal[i] = 0;
@@ -84,7 +86,8 @@ Plane fit_plane(const Patch& patch) {
     for (Index v : t)
       if (lies_outside(patch.points[v]))
         throw SurfaceError("not planar: the node at " + describe(patch.points[v]) +
-                           " lies outside the plane of the rest; curved surfaces are not supported yet");
+                               " lies outside the plane of the rest; curved surfaces are not supported yet",
+                           {.kind = ErrorKind::not_planar, .place = patch.points[v], .subject = node_row(v)});
   return plane;
 }
 

@@ -2,11 +2,11 @@
 /// A surface, laid into its plane and cut along its constraints.
 
 #include <Eigen/Geometry>
-#include <string>
 #include <vector>
 
 #include "geometry/describe.hpp"
 #include "geometry/vec2.hpp"
+#include "qmorph/error.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -20,6 +20,9 @@ struct Plane {
   Vec2 to_plane(const Eigen::Vector3d& p) const { return {(p - origin).dot(axis_u), (p - origin).dot(axis_v)}; }
   Eigen::Vector3d to_space(const Vec2& p) const { return origin + p.x() * axis_u + p.y() * axis_v; }
 };
+
+/// For errors about a node of a patch.
+inline ErrorSubject node_row(std::size_t row) { return {ErrorSubject::Kind::node, row}; }
 
 /// Plane of the patch. Throws SurfaceError if a coordinate is not finite or the patch is not planar.
 Plane fit_plane(const Patch& patch);

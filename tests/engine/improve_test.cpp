@@ -12,6 +12,7 @@
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
 #include "support/rng.hpp"
+#include "support/watcher.hpp"
 
 namespace {
 
@@ -96,7 +97,7 @@ Patch throw_nodes(Patch patch, const Patch& triangles, std::uint64_t seed) {
 
 TEST_CASE("improve: a grid stays what it is") {
   const Patch patch = grid(6, 4);
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.quads.size() == 24);
   CHECK(mesh.points == patch.points);
@@ -108,7 +109,7 @@ TEST_CASE("improve: triangles that were joined at random become quads within the
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;
     const Patch patch = join_at_random(triangles, seed);
-    const QuadMesh mesh = improve(patch);
+    const QuadMesh mesh = improve(patch).mesh;
     const auto complaints = broken_invariants(triangles, mesh);
     if (!complaints.empty()) FAIL_CHECK(complaints.front());
   }
@@ -123,7 +124,7 @@ TEST_CASE(
     if (!triangles.quads.empty()) continue;
     ++domains;
     try {
-      const QuadMesh mesh = improve(throw_nodes(join_at_random(triangles, seed), triangles, seed));
+      const QuadMesh mesh = improve(throw_nodes(join_at_random(triangles, seed), triangles, seed)).mesh;
       const auto complaints = broken_invariants(triangles, mesh);
       if (!complaints.empty()) FAIL_CHECK(complaints.front());
     } catch (const qmorph::SurfaceError& error) {
@@ -146,7 +147,7 @@ TEST_CASE("improve: a pair of triangles far apart meets") {
   };
   cut(40);
   cut(3);
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.quads.size() == 45);
   CHECK(qmorph::measure(mesh).irregular_nodes == 0);
@@ -160,7 +161,7 @@ TEST_CASE("improve: a node that was pulled over its neighbours goes back") {
     patch.points[3 + 4 * 7] = {4.3, 1.5, 0};
   }
   SUBCASE("a chevron") { patch.points[3 + 3 * 7] = {3.8, 3.8, 0}; }
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(grid(6, 6), mesh).empty());
   CHECK(mesh.quads.size() == 36);
   CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.99);
@@ -179,7 +180,7 @@ TEST_CASE("improve: a quad whose corners cannot move is cut and built anew") {
     patch.quads = {{0, 5, 1, 3}};
     patch.triangles = {{0, 3, 4}, {1, 2, 3}};
   }
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.triangles.empty());
 }
@@ -192,7 +193,7 @@ TEST_CASE("improve: nodes with two neighbours go") {
   patch.points.emplace_back(1.6, 1.4, 0);
   patch.quads[5] = {n[0], n[1], n[2], inner};
   patch.quads.push_back({n[0], inner, n[2], n[3]});
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(mesh.quads.size() == 16);
   CHECK(qmorph::measure(mesh).irregular_nodes == 0);
 }
@@ -204,7 +205,7 @@ TEST_CASE("improve: constraints, fixed nodes and odd boundaries are respected") 
   patch.points[4 + 3 * 7] += Eigen::Vector3d(0.3, 0.2, 0);
   patch.quads.pop_back();  // the corner square becomes a triangle
   patch.triangles.push_back({5 + 4 * 7, 6 + 4 * 7, 5 + 5 * 7});
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.triangles.size() == 1);
 }
@@ -212,7 +213,7 @@ TEST_CASE("improve: constraints, fixed nodes and odd boundaries are respected") 
 TEST_CASE("improve: a constraint along the diagonal of a quad cuts it") {
   Patch patch = grid(3, 3);
   patch.constraints = {{1 + 4, 2 + 2 * 4}};
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
 }
 
@@ -230,14 +231,15 @@ TEST_CASE("improve: a fold in the boundary is refused, with its place") {
 }
 
 TEST_CASE("improve: nothing comes of nothing, and the stages are measured as in a conversion") {
-  CHECK(improve(Patch{}).quads.empty());
+  CHECK(improve(Patch{}).mesh.quads.empty());
   qmorph::Options options;
-  options.measure_stages = true;
-  const QuadMesh mesh = improve(grid(3, 2), options);
-  REQUIRE(mesh.stats.stages.size() == qmorph::kStages);
-  CHECK(mesh.stats.stages.front().quality.result().quads == 6);
-  CHECK(mesh.stats.stages.front().quality.result().triangles == 0);
-  CHECK(mesh.stats.stages.back().quality.result().quads == 6);
+  qmorph::test::Watcher watcher;
+  options.observer = &watcher;
+  improve(grid(3, 2), options);
+  REQUIRE(watcher.stages.size() == qmorph::kStages);
+  CHECK(watcher.stages.front().mesh.quads.size() == 6);
+  CHECK(watcher.stages.front().mesh.triangles.empty());
+  CHECK(watcher.stages.back().mesh.quads.size() == 6);
 }
 
 namespace {
@@ -278,12 +280,13 @@ Patch as_patch(const QuadMesh& mesh, const Patch& of) {
   return patch;
 }
 
-void check_no_worse(const Patch& patch, const QuadMesh& mesh) {
+void check_no_worse(const Patch& patch, const qmorph::Conversion& done) {
+  const QuadMesh& mesh = done.mesh;
   const Figures before = figures_of(patch.points, patch.quads), after = figures_of(mesh.points, mesh.quads);
   CHECK(after.least > before.least - 1e-9);
   CHECK(after.poor <= before.poor);
   // Regions with different numbers of quads weigh differently before and after.
-  if (mesh.stats.regions == 1) CHECK(after.mean > before.mean - 1e-9);
+  if (done.report.regions == 1) CHECK(after.mean > before.mean - 1e-9);
 }
 
 }  // namespace
@@ -293,10 +296,10 @@ TEST_CASE("improve: what is good stays as good") {
     CAPTURE(seed);
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;
-    const Patch patch = as_patch(qmorph::convert(triangles), triangles);
-    const QuadMesh mesh = improve(patch);
-    CHECK(mesh.stats.worse_regions == 0);
-    check_no_worse(patch, mesh);
+    const Patch patch = as_patch(qmorph::convert(triangles).mesh, triangles);
+    const qmorph::Conversion done = improve(patch);
+    CHECK(done.report.worse_regions == 0);
+    check_no_worse(patch, done);
   }
 }
 
@@ -307,12 +310,12 @@ TEST_CASE("improve: no region gets worse but for triangles that have to go") {
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;
     const Patch patch = join_at_random(triangles, seed);
-    const QuadMesh mesh = improve(patch);
-    regions += int(mesh.stats.regions), worse += int(mesh.stats.worse_regions);
-    if (mesh.stats.worse_regions == 0)
-      check_no_worse(patch, mesh);
+    const qmorph::Conversion done = improve(patch);
+    regions += int(done.report.regions), worse += int(done.report.worse_regions);
+    if (done.report.worse_regions == 0)
+      check_no_worse(patch, done);
     else
-      CHECK(patch.triangles.size() > mesh.stats.odd_regions);
+      CHECK(patch.triangles.size() > done.report.odd_regions);
   }
   CHECK(10 * worse < regions);
 }
@@ -332,9 +335,9 @@ TEST_CASE("improve: rows of stretched quads with a few triangles among them stay
       patch.triangles.push_back({q[0], q[1], q[2]});
       patch.triangles.push_back({q[0], q[2], q[3]});
     }
-    const QuadMesh mesh = improve(patch);
-    CHECK(mesh.triangles.empty());
-    CHECK(mesh.quads.size() == 300);
-    check_no_worse(patch, mesh);
+    const qmorph::Conversion done = improve(patch);
+    CHECK(done.mesh.triangles.empty());
+    CHECK(done.mesh.quads.size() == 300);
+    check_no_worse(patch, done);
   }
 }

@@ -10,8 +10,8 @@
 #include <unordered_map>
 
 #include "geometry/describe.hpp"
-#include "gmsh/convert/check.hpp"
 #include "gmsh/session/element_types.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -192,7 +192,8 @@ Tags Raiser::raise(const Tags& corners, const ElementType& type) {
 
 ElementBlock Raiser::raise(const ElementBlock& linear, int order, bool incomplete) {
   const ElementType type = element_type(type_number(linear.corners, order, incomplete));
-  if (type.nodes == 0) throw SurfaceError(fmt::format("Gmsh has no element of order {} for it", order));
+  if (type.nodes == 0)
+    throw SurfaceError(fmt::format("Gmsh has no element of order {} for it", order), {.kind = ErrorKind::element_type});
   ElementBlock block;
   block.type = type.type;
   block.order = order;
@@ -235,11 +236,13 @@ int order_of(const EntityMesh& surface) {
   for (const ElementBlock& block : surface.blocks) {
     if (block.corners != 3 && block.corners != 4)
       throw SurfaceError(
-          fmt::format("it has elements with {} nodes that are neither triangles nor quads", block.nodes_per_element));
+          fmt::format("it has elements with {} nodes that are neither triangles nor quads", block.nodes_per_element),
+          {.kind = ErrorKind::element_type});
     orders.insert(block.order);
     if (!families.insert(block.corners).second) orders.insert(-1);
   }
-  if (orders.size() > 1) throw SurfaceError("it has elements of several orders; give them one order");
+  if (orders.size() > 1)
+    throw SurfaceError("it has elements of several orders; give them one order", {.kind = ErrorKind::element_type});
   return orders.empty() ? 1 : *orders.begin();
 }
 
@@ -255,6 +258,7 @@ void raise_order(const ModelMesh& mesh, const EntityMesh& before, bool incomplet
 
 std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, const SurfacePart& part,
                              const QuadMesh& result) {
+  if (order_of(before) == 1) return {};
   EdgeNodes edges;
   for (const ElementBlock& block : before.blocks) learn_edges(block, edges);
   const auto line = [&](Index a, Index b) {
@@ -267,7 +271,7 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, co
     points.push_back(result.points[b]);
     return points;
   };
-  const Eigen::Vector3d normal = patch_normal(part.patch);
+  const Eigen::Vector3d normal = mean_normal(part.patch);
   const auto bent = [&](const auto& element) {
     for (std::size_t k = 0; k < element.size(); ++k) {
       const Index next = element[(k + 1) % element.size()], last = element[(k + element.size() - 1) % element.size()];

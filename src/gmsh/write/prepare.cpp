@@ -14,10 +14,10 @@
 #include "gmsh/model/orientation.hpp"
 #include "gmsh/model/periodic_links.hpp"
 #include "gmsh/model/put_back.hpp"
-#include "gmsh/model/sides.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "qmorph/error.hpp"
+#include "quality/sides.hpp"
 
 namespace qmorph::adapter {
 namespace {

@@ -1,6 +1,7 @@
 #include "gmsh/write/write.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
