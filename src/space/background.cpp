@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/background.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace qmorph::space {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d unit(const Vector3d& v) {
+  const double length = v.norm();
+  return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
+}
+
+}  // namespace
+
+Background::Background(std::span<const Vector3d> points, std::span<const Triangle> triangles,
+                       std::span<const Edge> barriers)
+    : points_(points), triangles_(triangles) {
+  link(barriers);
+  add_fans();
+}
+
+/// Chains of the edges at their lower node; the first side of an edge stands for it.
+void Background::link(std::span<const Edge> barriers) {
+  struct Entry {
+    Index upper, side, following;
+    bool is_barrier;
+  };
+  std::vector<Index> first(points_.size(), kNone);
+  std::vector<Entry> entries;
+  entries.reserve(3 * triangles_.size() / 2 + barriers.size());
+  const auto entry = [&](Index a, Index b) -> Entry& {
+    const auto [low, high] = std::minmax(a, b);
+    for (Index e = first[low]; e != kNone; e = entries[e].following)
+      if (entries[e].upper == high) return entries[e];
+    entries.push_back({high, kNone, first[low], false});
+    first[low] = Index(entries.size() - 1);
+    return entries.back();
+  };
+  for (const auto& [a, b] : barriers) entry(a, b).is_barrier = true;
+
+  const Index sides = 3 * triangles();
+  opposite_.assign(sides, kNone);
+  for (Index side = 0; side < sides; ++side) {
+    const Index a = triangles_[side / 3][side % 3], b = triangles_[side / 3][(side + 1) % 3];
+    Entry& edge = entry(a, b);
+    if (edge.is_barrier) continue;
+    if (edge.side == kNone) {
+      edge.side = side;
+      continue;
+    }
+    const Index other = edge.side;
+    const bool is_third = opposite_[other] != kNone, is_alike = triangles_[other / 3][other % 3] == a;
+    if (is_third) {
+      opposite_[opposite_[other]] = kNone;
+      opposite_[other] = kNone;
+    }
+    if (is_third || is_alike)
+      edge.is_barrier = true;
+    else
+      opposite_[side] = other, opposite_[other] = side;
+  }
+}
+
+/// Calls visit(side) for the side that starts at this corner and those of the other triangles of its fan, at most so many each way round.
+template <class Visit>
+void Background::for_fan(Index side, Index most, const Visit& visit) const {
+  visit(side);
+  Index e = opposite_[side];
+  for (Index i = 0; e != kNone && i < most; ++i, e = opposite_[e]) {
+    e = next(e);
+    if (e == side) return;  // all round
+    visit(e);
+  }
+  e = opposite_[previous(side)];
+  for (Index i = 0; e != kNone && i < most; ++i, e = opposite_[previous(e)]) {
+    if (e == side) return;  // a fan that is longer than `most`, from the other end
+    visit(e);
+  }
+}
+
+void Background::add_fans() {
+  std::vector<Vector3d> areas(triangles_.size());
+  normals_.resize(triangles_.size());
+  for (Index t = 0; t < triangles(); ++t) {
+    areas[t] = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+    normals_[t] = unit(areas[t]);
+  }
+  fans_.assign(opposite_.size(), kNone);
+  fan_normals_.reserve(points_.size());
+  for (Index side = 0; side < fans_.size(); ++side) {
+    if (fans_[side] != kNone) continue;
+    Vector3d sum = Vector3d::Zero();
+    for_fan(side, kNone, [&](Index e) {
+      sum += areas[e / 3];
+      fans_[e] = fans();
+    });
+    fan_normals_.push_back(unit(sum));
+  }
+}
+
+Vector3d Background::normal_near(Index t) const {
+  Vector3d sum = 3 * normals_[t];
+  for (int i = 0; i < 3; ++i)
+    if (const Index other = neighbour(t, i); other != kNone) sum += normals_[other];
+  return unit(sum);
+}
+
+Vector3d Background::smooth_normal(Index t, const Vector3d& weights) const {
+  const Vector3d sum =
+      weights[0] * corner_normal(t, 0) + weights[1] * corner_normal(t, 1) + weights[2] * corner_normal(t, 2);
+  const double length = sum.norm();
+  return length > 0 ? Vector3d(sum / length) : normals_[t];
+}
+
+Foot Background::foot_on(Index t, const Vector3d& p) const {
+  return {closest_on_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2)), t};
+}
+
+Foot Background::walk(const Vector3d& p, Index hint) const {
+  constexpr int kMostSteps = 1000;
+  constexpr Index kMostOfFan = 24;      // in a fan of thousands, steps must stay cheap
+  constexpr double kOnSurface = 1e-14;  // squared distance over the squared side: no triangle can be nearer
+  Foot best = foot_on(hint, p);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Index t = best.triangle;
+    if (best.distance2 <= kOnSurface * (corner(t, 1) - corner(t, 0)).squaredNorm() && best.weights.minCoeff() > 0)
+      break;
+    const auto look_at = [&](Index other) {
+      const Foot foot = foot_on(other, p);
+      if (foot.distance2 < best.distance2) best = foot;
+    };
+    // Across the side that the foot lies on; else, and at a corner, all round.
+    for (int i = 0; i < 3; ++i)
+      if (best.triangle == t && best.weights[(i + 2) % 3] <= 0)
+        if (const Index other = neighbour(t, i); other != kNone) look_at(other);
+    if (best.triangle != t) continue;
+    for (Index i = 0; i < 3; ++i)
+      for_fan(3 * t + i, kMostOfFan, [&](Index side) {
+        if (side / 3 != t) look_at(side / 3);
+      });
+    if (best.triangle == t) break;
+  }
+  return best;
+}
+
+}  // namespace qmorph::space
