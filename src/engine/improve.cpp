@@ -44,7 +44,9 @@ QuadMesh improve_patch(const Patch& patch, const Options& options) {
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
   const std::size_t triangles = patch.triangles.size();
-  const Surface surface(halves);
+  const std::optional<Plane> plane = find_plane(halves);
+  if (!plane) throw SurfaceError("not planar; quads of curved surfaces are not improved yet");
+  const Surface surface(halves, *plane);
   std::vector<Start> starts;
   std::vector<Region> regions;
   for (const Region& region : surface.regions) {

@@ -128,7 +128,7 @@ void Pipeline::polish(kernel::Mesh& mesh) {
 std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film, const Plane& plane) {
   for (Eigen::Vector3d* axis : {&film->axis_u, &film->axis_v})
     *axis = axis->x() * plane.axis_u + axis->y() * plane.axis_v;
-  film->origin = plane.to_space(film->origin.head<2>());
+  film->origin = plane.on_plane(film->origin.head<2>());
   return film;
 }
 
