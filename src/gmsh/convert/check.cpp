@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/regions.hpp"
 #include "gmsh/model/sides.hpp"
 
 namespace qmorph::adapter {
@@ -174,7 +175,10 @@ std::string find_changed_quad(const Patch& patch, const QuadMesh& mesh, const st
 
 Eigen::Vector3d patch_normal(const Patch& patch) { return area_vector(patch).normalized(); }
 
+bool is_planar(const Patch& patch) { return find_plane(patch).has_value(); }
+
 BadQuad find_bad_quad(const Patch& patch) {
+  if (!is_planar(patch)) return {};
   const Eigen::Vector3d normal = patch_normal(patch);
   for (Index q = 0; q < patch.quads.size(); ++q)
     if (const std::size_t k = bad_corner(patch.points, patch.quads[q], normal); k < 4)
@@ -192,6 +196,7 @@ std::string find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads qua
   if (kept)
     if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
 
+  if (!is_planar(patch)) return {};
   const Eigen::Vector3d normal = patch_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);

@@ -11,6 +11,9 @@ namespace qmorph::adapter {
 /// Unit normal that the elements of a planar patch follow: the direction of the sum of their area vectors.
 Eigen::Vector3d patch_normal(const Patch& patch);
 
+/// Whether all of a patch lies in one plane.
+bool is_planar(const Patch& patch);
+
 /// A quad of the input that is inverted, or has a corner of 180 degrees or more.
 struct BadQuad {
   Index quad = kNone;  ///< kNone: there is none

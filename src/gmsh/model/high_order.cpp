@@ -256,6 +256,7 @@ void raise_order(const ModelMesh& mesh, const EntityMesh& before, bool incomplet
 
 std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, const SurfacePart& part,
                              const QuadMesh& result) {
+  if (order_of(before) < 2) return {};
   EdgeNodes edges;
   for (const ElementBlock& block : before.blocks) learn_edges(block, edges);
   const auto line = [&](Index a, Index b) {
@@ -268,8 +269,16 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, co
     points.push_back(result.points[b]);
     return points;
   };
-  const Eigen::Vector3d normal = patch_normal(part.patch);
+  const bool planar = is_planar(part.patch);
+  const Eigen::Vector3d of_patch = patch_normal(part.patch);
   const auto bent = [&](const auto& element) {
+    Eigen::Vector3d normal = of_patch;
+    if (!planar) {  // the element's own corners say which way is up
+      normal.setZero();
+      const Eigen::Vector3d& p = result.points[element[0]];
+      for (std::size_t k = 2; k < element.size(); ++k)
+        normal += (result.points[element[k - 1]] - p).cross(result.points[element[k]] - p);
+    }
     for (std::size_t k = 0; k < element.size(); ++k) {
       const Index next = element[(k + 1) % element.size()], last = element[(k + element.size() - 1) % element.size()];
       if (is_bent(line(element[k], next), line(element[k], last), normal)) return k;
