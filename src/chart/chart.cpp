@@ -9,9 +9,6 @@
 namespace qmorph::chart {
 namespace {
 
-/// Quads that are squares in a chart are good quads in space up to this distortion.
-constexpr double kMostDistortion = 1.2;
-
 Eigen::Vector3d in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
 }  // namespace
@@ -25,8 +22,6 @@ Chart::Chart(const Piece& piece)
   for (Index t = 0; t < piece.halves.size(); ++t)
     for (Index v : piece.halves[t]) half_at_[v] = t;
 }
-
-bool Chart::is_good() const { return flattening_.flipped == 0 && flattening_.distortion <= kMostDistortion; }
 
 Eigen::Vector3d Chart::weights(Index half, const Vec2& p) const {
   const auto& t = piece_.halves[half];

@@ -13,8 +13,6 @@ class Chart {
   Chart(const Chart&) = delete;
   Chart& operator=(const Chart&) = delete;
 
-  /// Nothing is turned over, and lengths and angles are nearly those in space.
-  bool is_good() const;
   const std::vector<Vec2>& flat() const { return flattening_.points; }
   const Flattening& flattening() const { return flattening_; }
 

@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/convert_region.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "chart/curved_region.hpp"
+#include "chart/interfaces.hpp"
 #include "chart/rework.hpp"
+#include "chart/windows.hpp"
+#include "engine/pipeline.hpp"
+#include "kernel/sort_unique.hpp"
+#include "parallel/for_each.hpp"
+#include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::chart {
 namespace {
+
+/// Faces of a chart: larger ones cost more than they are worth.
+constexpr std::size_t kMostOfChart = 60'000;
+constexpr WindowSize kCleaningWindow{8, 5, 800};
 
 /// The plane of a chart, in which messages say where a point is in space.
 Plane plane_of(const Chart& chart) {
@@ -17,25 +28,124 @@ Plane plane_of(const Chart& chart) {
   return plane;
 }
 
+std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sides) {
+  std::vector<Edge> edges;
+  for (Index side = 0; side < sides.size(); ++side) {
+    if (!sides[side]) continue;
+    const Face& face = mesh.faces[side / 4];
+    edges.emplace_back(std::minmax(face[side % 4], face[next_corner(face, side % 4)]));
+  }
+  sort_unique(edges);
+  return edges;
+}
+
+std::size_t count_bad(const kernel::Mesh& mesh) {
+  std::size_t bad = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f) bad += mesh.is_live_face(f) && !mesh.is_valid_face(f);
+  return bad;
+}
+
+class CurvedConverter {
+ public:
+  CurvedConverter(const CurvedRegion& region, const Options& options, ConversionStats& stats)
+      : region_(region), options_(options), stats_(stats), mesh_(region.start()) {
+    options_.measure_stages = options_.record_film = false;
+    options_.part_triangles = 0;
+    creases_ = region.creases;
+  }
+
+  SurfaceMesh run() {
+    divide_region();
+    work_on_parts();
+    clean_interfaces();
+    return std::move(mesh_);
+  }
+
+ private:
+  const space::Background& background() const { return *region_.background; }
+
+  void divide_region() {
+    opposite_ = opposite_sides(mesh_);
+    const std::vector<bool> is_crease = sides_on(mesh_, creases_);
+    division_ = divide(mesh_, opposite_, is_crease, kMostOfChart);
+    std::vector<bool> is_interface = division_.is_cut;
+    for (std::size_t side = 0; side < is_interface.size(); ++side)
+      if (is_crease[side]) is_interface[side] = false;
+    interface_ = edges_on(mesh_, is_interface);
+    straighten(mesh_, opposite_, is_crease, interface_, background());
+    const std::vector<char> changed = make_parts_even(mesh_, opposite_, division_, creases_, interface_, background());
+    for (Index p = 0; p < division_.parts.size(); ++p)
+      if (changed[p] || !interface_.empty())
+        division_.laid_out[p] =
+            std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, division_.parts[p]);
+  }
+
+  void work_on_parts() {
+    const std::size_t parts = division_.parts.size();
+    std::vector<Reworked> results(parts);
+    std::vector<ConversionStats> stats(parts);
+    const parallel::SharedProgress shared(options_.progress, double(mesh_.faces.size()));
+    std::vector<parallel::Progress> progress;
+    for (const auto& part : division_.parts) progress.push_back(shared.part(double(part.size())));
+    parallel::for_each_index(parts, [&](std::size_t p) {
+      const auto& [piece, chart] = *division_.laid_out[p];
+      Options own = options_;
+      own.progress = progress[p];
+      results[p].piece = &piece;
+      results[p].mesh = qmorph::convert_region(piece.region(chart.flat()), plane_of(chart), own, stats[p], nullptr);
+      results[p].lifted = lift(results[p].mesh, piece, chart, background());
+    });
+    for (const ConversionStats& some : stats) stats_.add(some);
+    mesh_ = replace(mesh_, results);
+  }
+
+  /// Interfaces were boundaries: irregular nodes beside them cancel now, and rows run straight on.
+  void clean_interfaces() {
+    if (interface_.empty()) return;
+    std::vector<char> waiting(mesh_.points.size(), 0);
+    for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
+    while (true) {
+      waiting.resize(mesh_.points.size(), 0);
+      opposite_ = opposite_sides(mesh_);
+      const std::vector<bool> is_crease = sides_on(mesh_, creases_);
+      const std::vector<Window> windows = take_windows(mesh_, opposite_, is_crease, kCleaningWindow, waiting);
+      if (windows.empty()) return;
+      std::vector<Reworked> results(windows.size());
+      parallel::for_each_index(windows.size(), [&](std::size_t w) { results[w] = clean(*windows[w].laid_out); });
+      std::erase_if(results, [](const Reworked& work) { return work.piece == nullptr; });
+      mesh_ = replace(mesh_, results);
+    }
+  }
+
+  /// Without a piece if nothing good came of it.
+  Reworked clean(const LaidOut& window) const {
+    const auto& [piece, chart] = window;
+    Reworked work{&piece, piece.mesh(chart.flat()), {}};
+    const std::size_t bad = count_bad(work.mesh);
+    std::vector<Index> nodes(piece.points.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    ConversionStats nothing;
+    Pipeline pipeline(options_, nothing, nullptr, work.mesh);
+    pipeline.clean_near(work.mesh, nodes);
+    pipeline.polish(work.mesh);
+    if (count_bad(work.mesh) > bad) return {};
+    work.lifted = lift(work.mesh, piece, chart, background());
+    return work;
+  }
+
+  const CurvedRegion& region_;
+  Options options_;
+  ConversionStats& stats_;
+  SurfaceMesh mesh_;
+  std::vector<Index> opposite_;
+  std::vector<Edge> creases_, interface_;
+  Division division_;
+};
+
 }  // namespace
 
 SurfaceMesh convert_region(const CurvedRegion& region, const Options& options, ConversionStats& stats) {
-  const SurfaceMesh start = region.start();
-  std::vector<Index> all(start.faces.size());
-  std::iota(all.begin(), all.end(), 0);
-  const Piece piece(start, opposite_sides(start), {}, all);
-  const Chart chart(piece);
-  if (getenv("CHART_DEBUG"))
-    fprintf(stderr, "region %zu triangles, sides %zu: distortion %.3f scaling %.3f flipped %zu\n", all.size(),
-            piece.boundary_sides, chart.flattening().distortion, chart.flattening().scaling,
-            chart.flattening().flipped);
-  if (!chart.is_good()) throw SurfaceError("it is curved too much near " + describe(region.points[0]));
-  Options own = options;
-  own.measure_stages = own.record_film = false;
-  const Plane plane = plane_of(chart);
-  Reworked work{&piece, qmorph::convert_region(piece.region(chart.flat()), plane, own, stats, nullptr), {}};
-  work.lifted = lift(work.mesh, piece, chart, *region.background);
-  return replace(start, {work});
+  return CurvedConverter(region, options, stats).run();
 }
 
 }  // namespace qmorph::chart

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "space/background.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -25,10 +25,9 @@ bool has_normal(const space::Background& surface, Index t) {
 
 }  // namespace
 
-std::vector<std::array<Index, 2>> find_creases(const Patch& patch, double angle) {
-  std::vector<std::array<Index, 2>> creases;
+std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle) {
+  std::vector<std::pair<Index, Index>> creases;
   if (angle >= std::numbers::pi) return creases;
-  const space::Background surface(patch.points, patch.triangles, patch.constraints);
   const double least = std::cos(angle);
   std::vector<char> counts(surface.triangles(), 0);
   for (Index t = 0; t < surface.triangles(); ++t) counts[t] = has_normal(surface, t);
@@ -36,9 +35,9 @@ std::vector<std::array<Index, 2>> find_creases(const Patch& patch, double angle)
     const Index other = surface.opposite(side), t = side / 3;
     if (other == kNone || other < side || !counts[t] || !counts[other / 3]) continue;
     if (surface.normal(t).dot(surface.normal(other / 3)) >= least) continue;
-    const Index a = surface.corners(t)[side % 3], b = surface.corners(t)[(side + 1) % 3];
-    creases.push_back({std::min(a, b), std::max(a, b)});
+    creases.push_back(std::minmax(surface.corners(t)[side % 3], surface.corners(t)[(side + 1) % 3]));
   }
+  sort_unique(creases);
   return creases;
 }
 

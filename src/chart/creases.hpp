@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "qmorph/patch.hpp"
+#include <utility>
+
+#include "space/background.hpp"
 
 namespace qmorph::chart {
 
-/// Edges of a patch along which two triangles meet at more than `angle` (radians, between their normals). Triangles without height
-/// have no say. Each edge once, lower node first.
-std::vector<std::array<Index, 2>> find_creases(const Patch& patch, double angle);
+/// Edges along which two triangles of a surface meet at more than `angle` (radians, between their normals), lower node first, sorted.
+/// Triangles without height have no say.
+std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle);
 
 }  // namespace qmorph::chart

@@ -20,12 +20,13 @@ std::vector<Vec2> shadow(const Patch& patch) {
 
 }  // namespace
 
-CurvedRegion::CurvedRegion(const Patch& patch, Region cut) : region(std::move(cut)) {
+CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) : region(std::move(cut)) {
   for (Index row : region.node) points.push_back(patch.points[row]);
   for (Index side = 0; side < region.open.size(); ++side)
     if (region.open[side])
       barriers.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
   background = std::make_unique<const space::Background>(points, region.triangles, barriers);
+  creases = find_creases(*background, crease_angle);
 }
 
 SurfaceMesh CurvedRegion::start() const {
@@ -46,11 +47,9 @@ SurfaceMesh CurvedRegion::start() const {
 }
 
 std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle) {
-  Patch creased = patch;
-  const auto creases = find_creases(patch, crease_angle);
-  creased.constraints.insert(creased.constraints.end(), creases.begin(), creases.end());
   std::vector<CurvedRegion> regions;
-  for (Region& region : cut_into_regions(creased, shadow(patch))) regions.emplace_back(patch, std::move(region));
+  for (Region& region : cut_into_regions(patch, shadow(patch)))
+    regions.emplace_back(patch, std::move(region), crease_angle);
   return regions;
 }
 

@@ -16,13 +16,14 @@ struct CurvedRegion {
   std::vector<Eigen::Vector3d> points;
   std::vector<space::Background::Edge> barriers;
   std::unique_ptr<const space::Background> background;
+  std::vector<std::pair<Index, Index>> creases;  ///< edges, lower vertex first, sorted
 
-  CurvedRegion(const Patch& patch, Region cut);
+  CurvedRegion(const Patch& patch, Region cut, double crease_angle);
   /// Its triangles, before anything is done to them.
   SurfaceMesh start() const;
 };
 
-/// The regions of a patch, which creases part as constraints do.
+/// The regions of a patch.
 std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle);
 
 /// Quads of a region. Vertices of the region keep their numbers.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "chart/local_numbers.hpp"
 #include "kernel/sort_unique.hpp"
 
 namespace qmorph::chart {
@@ -51,8 +52,7 @@ std::vector<Index> opposite_sides(const SurfaceMesh& mesh) {
 Piece::Piece(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_cut,
              const std::vector<Index>& rows)
     : row(rows), open(4 * rows.size(), false) {
-  std::vector<Index> local(mesh.faces.size(), kNone);
-  for (Index k = 0; k < rows.size(); ++k) local[rows[k]] = k;
+  const LocalNumbers local(rows, mesh.faces.size());
   const auto across = [&](Index side) {  // a side of the mesh inside of the piece, or kNone
     const Index other = opposite[side];
     return other == kNone || local[other / 4] == kNone || (!is_cut.empty() && is_cut[side]) ? kNone : other;
