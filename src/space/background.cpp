@@ -2,7 +2,9 @@
 #include "space/background.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
+#include <utility>
+
+#include "space/link_sides.hpp"
 
 namespace qmorph::space {
 namespace {
@@ -19,50 +21,11 @@ Vector3d unit(const Vector3d& v) {
 Background::Background(std::span<const Vector3d> points, std::span<const Triangle> triangles,
                        std::span<const Edge> barriers)
     : points_(points), triangles_(triangles) {
-  link(barriers);
+  const auto ends = [&](Index side) {
+    return std::pair(triangles[side / 3][side % 3], triangles[side / 3][(side + 1) % 3]);
+  };
+  opposite_ = link_sides(points.size(), 3 * Background::triangles(), ends, barriers);
   add_fans();
-}
-
-/// Chains of the edges at their lower node; the first side of an edge stands for it.
-void Background::link(std::span<const Edge> barriers) {
-  struct Entry {
-    Index upper, side, following;
-    bool is_barrier;
-  };
-  std::vector<Index> first(points_.size(), kNone);
-  std::vector<Entry> entries;
-  entries.reserve(3 * triangles_.size() / 2 + barriers.size());
-  const auto entry = [&](Index a, Index b) -> Entry& {
-    const auto [low, high] = std::minmax(a, b);
-    for (Index e = first[low]; e != kNone; e = entries[e].following)
-      if (entries[e].upper == high) return entries[e];
-    entries.push_back({high, kNone, first[low], false});
-    first[low] = Index(entries.size() - 1);
-    return entries.back();
-  };
-  for (const auto& [a, b] : barriers) entry(a, b).is_barrier = true;
-
-  const Index sides = 3 * triangles();
-  opposite_.assign(sides, kNone);
-  for (Index side = 0; side < sides; ++side) {
-    const Index a = triangles_[side / 3][side % 3], b = triangles_[side / 3][(side + 1) % 3];
-    Entry& edge = entry(a, b);
-    if (edge.is_barrier) continue;
-    if (edge.side == kNone) {
-      edge.side = side;
-      continue;
-    }
-    const Index other = edge.side;
-    const bool is_third = opposite_[other] != kNone, is_alike = triangles_[other / 3][other % 3] == a;
-    if (is_third) {
-      opposite_[opposite_[other]] = kNone;
-      opposite_[other] = kNone;
-    }
-    if (is_third || is_alike)
-      edge.is_barrier = true;
-    else
-      opposite_[side] = other, opposite_[other] = side;
-  }
 }
 
 /// Calls visit(side) for the side that starts at this corner and those of the other triangles of its fan, at most so many each way round.

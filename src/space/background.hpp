@@ -31,6 +31,8 @@ class Background {
   Background(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
              std::span<const Edge> barriers = {});
 
+  std::span<const Eigen::Vector3d> points() const { return points_; }
+  std::span<const Triangle> all_corners() const { return triangles_; }
   Index triangles() const { return Index(triangles_.size()); }
   const Triangle& corners(Index t) const { return triangles_[t]; }
   const Eigen::Vector3d& point(Index row) const { return points_[row]; }
@@ -66,7 +68,6 @@ class Background {
   Foot walk(const Eigen::Vector3d& p, Index hint) const;
 
  private:
-  void link(std::span<const Edge> barriers);
   void add_fans();
   template <class Visit>
   void for_fan(Index side, Index most, const Visit& visit) const;
