@@ -57,7 +57,6 @@ class Dividing {
   }
 
   void accept(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
-    if (getenv("CHART_DEBUG")) fprintf(stderr, "part %zu faces %zu sides dist %.3f\n", faces.size(), part->piece.boundary_sides, part->chart.flattening().distortion);
     division_.parts.push_back(faces);
     division_.laid_out.push_back(std::move(part));
   }
@@ -96,7 +95,6 @@ class Dividing {
       return {};
     }
     for (Index side : sides_along(part->piece, path)) set_cut(side, true);
-    if (getenv("CHART_DEBUG")) fprintf(stderr, "narrow tip: path %zu, parts %zu\n", path.size(), components(faces, opposite_, division_.is_cut).size());
     return components(faces, opposite_, division_.is_cut);
   }
 
