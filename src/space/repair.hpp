@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chart/curved_region.hpp"
+#include "chart/interfaces.hpp"
 #include "qmorph/options.hpp"
 #include "space/mesh_on_surface.hpp"
 
