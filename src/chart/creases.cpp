@@ -11,6 +11,8 @@
 namespace qmorph::chart {
 namespace {
 
+using Eigen::Vector3d;
+
 /// The normal of a triangle that is not so high, relative to its longest side, says nothing.
 constexpr double kLeastHeight = 0.02;
 
@@ -21,6 +23,31 @@ bool has_normal(const space::Background& surface, Index t) {
   const double area =
       (surface.corner(t, 1) - surface.corner(t, 0)).cross(surface.corner(t, 2) - surface.corner(t, 0)).norm();
   return area > kLeastHeight * longest;
+}
+
+/// Where an edge turns by less, it may be one of several that make a bend together: a circle of six sides is a circle. In a
+/// bend, each edge turns by not much more than the surface does beyond it, on both sides.
+constexpr double kMostOfBend = 75 * std::numbers::pi / 180;
+constexpr double kLeastBeyond = 0.4;
+constexpr Index kMostOfFan = 24;
+
+/// By how much the surface turns on around `axis`, from triangle `from` to those at its corner across `side`.
+double turn_beyond(const space::Background& surface, Index side, const Vector3d& axis) {
+  const Index from = side / 3, corner = 3 * from + (side + 2) % 3;
+  const Vector3d start = surface.normal(from) - surface.normal(from).dot(axis) * axis;
+  double most = 0;
+  surface.for_fan(corner, kMostOfFan, [&](Index around) {
+    const Vector3d& normal = surface.normal(around / 3);
+    most = std::max(most, std::atan2(axis.dot(start.cross(normal)), start.dot(normal)));
+  });
+  return most;
+}
+
+bool is_of_bend(const space::Background& surface, Index side, double angle) {
+  const Index other = surface.opposite(side);
+  const Vector3d axis = surface.normal(side / 3).cross(surface.normal(other / 3)).normalized();
+  return angle < kMostOfBend && turn_beyond(surface, other, axis) > kLeastBeyond * angle &&
+         turn_beyond(surface, side, -axis) > kLeastBeyond * angle;
 }
 
 }  // namespace
@@ -34,7 +61,8 @@ std::vector<std::pair<Index, Index>> find_creases(const space::Background& surfa
   for (Index side = 0; side < 3 * surface.triangles(); ++side) {
     const Index other = surface.opposite(side), t = side / 3;
     if (other == kNone || other < side || !counts[t] || !counts[other / 3]) continue;
-    if (surface.normal(t).dot(surface.normal(other / 3)) >= least) continue;
+    const double cosine = surface.normal(t).dot(surface.normal(other / 3));
+    if (cosine >= least || is_of_bend(surface, side, std::acos(std::max(-1.0, cosine)))) continue;
     creases.push_back(std::minmax(surface.corners(t)[side % 3], surface.corners(t)[(side + 1) % 3]));
   }
   sort_unique(creases);

@@ -28,23 +28,6 @@ Background::Background(std::span<const Vector3d> points, std::span<const Triangl
   add_fans();
 }
 
-/// Calls visit(side) for the side that starts at this corner and those of the other triangles of its fan, at most so many each way round.
-template <class Visit>
-void Background::for_fan(Index side, Index most, const Visit& visit) const {
-  visit(side);
-  Index e = opposite_[side];
-  for (Index i = 0; e != kNone && i < most; ++i, e = opposite_[e]) {
-    e = next(e);
-    if (e == side) return;  // all round
-    visit(e);
-  }
-  e = opposite_[previous(side)];
-  for (Index i = 0; e != kNone && i < most; ++i, e = opposite_[previous(e)]) {
-    if (e == side) return;  // a fan that is longer than `most`, from the other end
-    visit(e);
-  }
-}
-
 void Background::add_fans() {
   std::vector<Vector3d> areas(triangles_.size());
   normals_.resize(triangles_.size());

@@ -60,6 +60,11 @@ class Background {
   Index fan(Index t, int i) const { return fans_[3 * t + i]; }
   Index fans() const { return Index(fan_normals_.size()); }
 
+  /// Calls visit(side) for the side that starts at this corner and those of the other triangles of its fan, at most so many each
+  /// way round.
+  template <class Visit>
+  void for_fan(Index side, Index most, const Visit& visit) const;
+
   /// The point of triangle t that is closest to p.
   Foot foot_on(Index t, const Eigen::Vector3d& p) const;
   /// The closest point that a walk downhill from `hint` finds: each step goes to that triangle around which is nearest to p.
@@ -69,8 +74,6 @@ class Background {
 
  private:
   void add_fans();
-  template <class Visit>
-  void for_fan(Index side, Index most, const Visit& visit) const;
   static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
 
@@ -81,5 +84,21 @@ class Background {
   std::vector<Index> fans_;                   ///< by corner
   std::vector<Eigen::Vector3d> fan_normals_;  ///< by fan
 };
+
+template <class Visit>
+void Background::for_fan(Index side, Index most, const Visit& visit) const {
+  visit(side);
+  Index e = opposite_[side];
+  for (Index i = 0; e != kNone && i < most; ++i, e = opposite_[e]) {
+    e = next(e);
+    if (e == side) return;  // all round
+    visit(e);
+  }
+  e = opposite_[previous(side)];
+  for (Index i = 0; e != kNone && i < most; ++i, e = opposite_[previous(e)]) {
+    if (e == side) return;  // a fan that is longer than `most`, from the other end
+    visit(e);
+  }
+}
 
 }  // namespace qmorph::space
