@@ -146,7 +146,12 @@ class Mender {
  public:
   Mender(SurfaceMesh mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
          const Background& surface, const SmoothingOptions& options)
-      : mesh_(std::move(mesh)), creases_(creases), triangles_(region.start()), surface_(surface), options_(options) {
+      : mesh_(std::move(mesh)),
+        creases_(creases),
+        triangles_(region.start()),
+        surface_(surface),
+        whole_(*region.background),
+        options_(options) {
     opposite_.assign(4 * triangles_.faces.size(), kNone);
     for (Index side = 0; side < 3 * surface.triangles(); ++side)
       if (const Index other = surface.opposite(side); other != kNone)
@@ -163,7 +168,7 @@ class Mender {
  private:
   /// False if nothing is left to do.
   bool mend(int rings) {
-    MeshOnSurface view(mesh_, creases_, surface_);
+    MeshOnSurface view(mesh_, creases_, surface_, whole_);
     std::vector<Index> bad;
     for (const PoorFace& poor : find_poor(view, 0)) bad.push_back(poor.face);
     if (bad.empty()) return false;
@@ -237,14 +242,14 @@ class Mender {
       part.near.push_back(part.on[face[0]]);
     }
     part.open.assign(4 * part.faces.size(), false);
-    return find_poor(MeshOnSurface(part, {}, surface_), 0).size();
+    return find_poor(MeshOnSurface(part, {}, surface_, whole_), 0).size();
   }
 
   SurfaceMesh mesh_;
   const std::vector<chart::Edge>& creases_;
   const SurfaceMesh triangles_;  ///< the surface itself
   std::vector<Index> opposite_;  ///< of their sides
-  const Background& surface_;
+  const Background &surface_, &whole_;
   const SmoothingOptions& options_;
 };
 

@@ -74,9 +74,11 @@ CornerNormals<N> MeshOnSurface::normals(Index f) const {
   return normals;
 }
 
-MeshOnSurface::MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface)
+MeshOnSurface::MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
+                             const Background& whole)
     : mesh_(mesh),
       surface_(surface),
+      whole_(whole),
       opposite_(chart::opposite_sides(mesh)),
       first_side_(mesh.points.size(), kNone),
       is_free_(mesh.points.size(), 0),
@@ -177,8 +179,8 @@ bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
 
 double MeshOnSurface::exact_sine(Index f) const {
   const Face& face = mesh_.faces[f];
-  return chart::degree(face) == 4 ? scaled_jacobian_on(surface_, corners<4>(face), mesh_.near[f])
-                                  : scaled_jacobian_on(surface_, corners<3>(face), mesh_.near[f]);
+  return chart::degree(face) == 4 ? scaled_jacobian_on(whole_, corners<4>(face), mesh_.near[f])
+                                  : scaled_jacobian_on(whole_, corners<3>(face), mesh_.near[f]);
 }
 
 double MeshOnSurface::smallest_sine_around(Index v) const {

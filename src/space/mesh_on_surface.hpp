@@ -29,11 +29,14 @@ class MeshOnSurface {
   using Face = chart::Face;
 
   /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their nodes stay.
-  /// Mesh::near is brought to the right side of them.
-  MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface);
+  /// Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases: who judges a result later
+  /// does not know of them.
+  MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
+                const Background& whole);
 
   const Mesh& mesh() const { return mesh_; }
   const Background& surface() const { return surface_; }
+  const Background& whole() const { return whole_; }
   Index nodes() const { return Index(mesh_.points.size()); }
   Index faces() const { return Index(mesh_.faces.size()); }
   /// May move: not fixed, and inside.
@@ -96,7 +99,7 @@ class MeshOnSurface {
   CornerNormals<N> normals(Index face) const;
 
   Mesh& mesh_;
-  const Background& surface_;
+  const Background &surface_, &whole_;
   std::vector<Index> opposite_;    ///< by side
   std::vector<Index> first_side_;  ///< by node: the one that has nothing before it, if there is a gap
   std::vector<char> is_free_;
