@@ -14,6 +14,7 @@
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"
+#include "space/improve.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -84,7 +85,7 @@ class CurvedConverter {
     divide_region();
     work_on_parts();
     clean_interfaces();
-    return std::move(mesh_);
+    return space::improve(std::move(mesh_), creases_, region_, options_.smoothing);
   }
 
  private:
@@ -102,8 +103,7 @@ class CurvedConverter {
     const std::vector<char> changed = make_parts_even(mesh_, opposite_, division_, creases_, interface_, background());
     for (Index p = 0; p < division_.parts.size(); ++p)
       if (changed[p] || !interface_.empty())
-        division_.laid_out[p] =
-            std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, division_.parts[p]);
+        division_.laid_out[p] = std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, division_.parts[p]);
   }
 
   void work_on_parts() {

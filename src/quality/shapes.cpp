@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using space::Corners;
 
-/// Elements are flat if this share of their area vectors is along the mean normal; judge.py has the same number.
+/// Elements are flat if this share of their area vectors is along the mean normal.
 constexpr double kFlatNormals = 1 - 1e-9;
 
 template <std::size_t N>
@@ -30,27 +30,6 @@ template <std::size_t N>
 Vector3d area_vector(const Corners<N>& p) {
   if constexpr (N == 3) return (p[1] - p[0]).cross(p[2] - p[0]);
   return (p[2] - p[0]).cross(p[3 % N] - p[1]);
-}
-
-/// The unit normal of a surface whose nodes lie in one plane, as far as the engine takes it for one.
-std::optional<Vector3d> plane_normal(const Patch& patch) {
-  constexpr double kPlanarTolerance = 1e-6;  // of the surface's size
-  Vector3d area = Vector3d::Zero();
-  Eigen::AlignedBox3d box;
-  const auto add = [&](const auto& nodes) {
-    const auto corners = corners_of(patch.points, nodes);
-    area += area_vector(corners);
-    for (const Vector3d& p : corners) box.extend(p);
-  };
-  for (const auto& nodes : patch.triangles) add(nodes);
-  for (const auto& nodes : patch.quads) add(nodes);
-  if (!(area.norm() > 0)) return std::nullopt;
-  const Vector3d normal = area.normalized();
-  const double tolerance = kPlanarTolerance * box.diagonal().norm();
-  const Vector3d& first = patch.points[patch.triangles.empty() ? patch.quads[0][0] : patch.triangles[0][0]];
-  const auto lies_outside = [&](const Vector3d& p) { return std::abs((p - first).dot(normal)) > tolerance; };
-  if (std::any_of(patch.points.begin(), patch.points.end(), lies_outside)) return std::nullopt;
-  return normal;
 }
 
 std::vector<Vector3d> area_vectors(const SurfaceElements& mesh) {
@@ -75,6 +54,26 @@ std::optional<Vector3d> common_normal(const SurfaceElements& mesh) {
   }
   if (along >= kFlatNormals * lengths) return normal;
   return std::nullopt;
+}
+
+std::optional<Vector3d> plane_normal(const Patch& patch) {
+  constexpr double kPlanarTolerance = 1e-6;  // of the surface's size
+  Vector3d area = Vector3d::Zero();
+  Eigen::AlignedBox3d box;
+  const auto add = [&](const auto& nodes) {
+    const auto corners = corners_of(patch.points, nodes);
+    area += area_vector(corners);
+    for (const Vector3d& p : corners) box.extend(p);
+  };
+  for (const auto& nodes : patch.triangles) add(nodes);
+  for (const auto& nodes : patch.quads) add(nodes);
+  if (!(area.norm() > 0)) return std::nullopt;
+  const Vector3d normal = area.normalized();
+  const double tolerance = kPlanarTolerance * box.diagonal().norm();
+  const Vector3d& first = patch.points[patch.triangles.empty() ? patch.quads[0][0] : patch.triangles[0][0]];
+  const auto lies_outside = [&](const Vector3d& p) { return std::abs((p - first).dot(normal)) > tolerance; };
+  if (std::any_of(patch.points.begin(), patch.points.end(), lies_outside)) return std::nullopt;
+  return normal;
 }
 
 /// Normals of the corners of elements in space, by the surface that they came from or else by the elements around.

@@ -32,6 +32,9 @@ struct SurfaceElements {
 /// The unit normal that all elements follow, if they lie in one plane.
 std::optional<Eigen::Vector3d> common_normal(const SurfaceElements& mesh);
 
+/// The unit normal of a surface whose nodes lie in one plane, as far as the engine takes it for one.
+std::optional<Eigen::Vector3d> plane_normal(const Patch& patch);
+
 class Shapes {
  public:
   /// Elements in a plane with this unit normal.

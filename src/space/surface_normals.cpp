@@ -24,20 +24,22 @@ Vector3d centre_of(const Corners<N>& p) {
   return sum / double(N);
 }
 
-/// A side of the surface where it parts.
+/// A side of the surface where it parts. Whichever way it runs: an element that is turned over is to be found on its own side.
 struct OpenSide {
-  Index from, to, triangle;
+  Index low, high, triangle;
 };
 
 /// In the order of their ends.
 std::vector<OpenSide> open_sides(const Background& surface) {
   std::vector<OpenSide> sides;
   for (Index t = 0; t < surface.triangles(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (surface.neighbour(t, i) == kNone)
-        sides.push_back({surface.corners(t)[i], surface.corners(t)[(i + 1) % 3], t});
+    for (int i = 0; i < 3; ++i) {
+      if (surface.neighbour(t, i) != kNone) continue;
+      const auto [low, high] = std::minmax(surface.corners(t)[i], surface.corners(t)[(i + 1) % 3]);
+      sides.push_back({low, high, t});
+    }
   std::sort(sides.begin(), sides.end(), [](const OpenSide& a, const OpenSide& b) {
-    return std::tie(a.from, a.to, a.triangle) < std::tie(b.from, b.to, b.triangle);
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
   });
   return sides;
 }
@@ -76,10 +78,11 @@ class Search {
     for (Index side = 0; side < sides_.slots(); ++side) {
       const Index e = side / 4;
       if (sides_.node(side) == kNone || sides_.opposite(side) != kNone || found_[e] != kNone) continue;
-      const OpenSide key{mesh_.source[sides_.node(side)], mesh_.source[sides_.target(side)], 0};
-      if (key.from == kNone || key.to == kNone) continue;
-      const auto before = [](const OpenSide& a, const OpenSide& b) {
-        return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+      const Index a = mesh_.source[sides_.node(side)], b = mesh_.source[sides_.target(side)];
+      if (a == kNone || b == kNone) continue;
+      const OpenSide key{std::min(a, b), std::max(a, b), 0};
+      const auto before = [](const OpenSide& x, const OpenSide& y) {
+        return std::tie(x.low, x.high) < std::tie(y.low, y.high);
       };
       const auto [first, last] = std::equal_range(open.begin(), open.end(), key, before);
       Foot best;

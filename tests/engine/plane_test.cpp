@@ -69,7 +69,7 @@ TEST_CASE("plane: a tilted one has unit axes, the normal of its elements, and pa
 TEST_CASE("plane: a clockwise patch is seen from below, and its result is clockwise") {
   Patch patch = square(Vector3d::Zero(), kX, kY);
   for (auto& t : patch.triangles) std::swap(t[1], t[2]);
-  CHECK(*find_plane(patch).normal() == -kZ);
+  CHECK(find_plane(patch)->normal() == -kZ);
   const QuadMesh result = convert(patch);
   REQUIRE(result.quads.size() >= 1);
   for (const auto& q : result.quads) {

@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/regions.hpp"
 #include "gmsh/model/sides.hpp"
+#include "quality/shapes.hpp"
+#include "space/faults.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -175,10 +176,14 @@ std::string find_changed_quad(const Patch& patch, const QuadMesh& mesh, const st
 
 Eigen::Vector3d patch_normal(const Patch& patch) { return area_vector(patch).normalized(); }
 
-bool is_planar(const Patch& patch) { return find_plane(patch).has_value(); }
+bool is_planar(const Patch& patch) { return plane_normal(patch).has_value(); }
 
 BadQuad find_bad_quad(const Patch& patch) {
-  if (!is_planar(patch)) return {};
+  if (!is_planar(patch)) {
+    Index corner = kNone;
+    const Index quad = space::find_bad_quad(patch, corner);
+    return quad == kNone ? BadQuad{} : BadQuad{quad, at(patch.points[corner])};
+  }
   const Eigen::Vector3d normal = patch_normal(patch);
   for (Index q = 0; q < patch.quads.size(); ++q)
     if (const std::size_t k = bad_corner(patch.points, patch.quads[q], normal); k < 4)
@@ -196,7 +201,10 @@ std::string find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads qua
   if (kept)
     if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
 
-  if (!is_planar(patch)) return {};
+  if (!is_planar(patch)) {
+    const auto fault = space::find_fault(patch, mesh, kept ? patch.quads.size() : 0);
+    return fault ? fault->what + " " + at(fault->where) : std::string();
+  }
   const Eigen::Vector3d normal = patch_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);

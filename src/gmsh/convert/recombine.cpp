@@ -344,11 +344,7 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.triangles_out = report.quads_out = 0;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const QuadMesh& result = converted.results[p];
-    const Patch& patch = converted.surface.parts[p].patch;
-    if (is_planar(patch))
-      quality.add(result.points, result.triangles, result.quads, patch_normal(patch));
-    else
-      quality.add(result.points, result.triangles, result.quads);
+    quality.add(converted.surface.parts[p].patch, result);
     report.triangles_out += result.triangles.size();
     report.quads_out += result.quads.size();
     report.stats.add(result.stats);
