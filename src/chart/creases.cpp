@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "kernel/sort_unique.hpp"
@@ -31,12 +32,14 @@ constexpr double kMostOfBend = 75 * std::numbers::pi / 180;
 constexpr double kLeastBeyond = 0.4;
 constexpr Index kMostOfFan = 24;
 
-/// By how much the surface turns on around `axis`, from triangle `from` to those at its corner across `side`.
+/// By how much the surface turns on around `axis`, from the triangle of `side` to those at its corner across. Infinite where the
+/// surface ends there: nobody knows how it goes on.
 double turn_beyond(const space::Background& surface, Index side, const Vector3d& axis) {
   const Index from = side / 3, corner = 3 * from + (side + 2) % 3;
   const Vector3d start = surface.normal(from) - surface.normal(from).dot(axis) * axis;
   double most = 0;
   surface.for_fan(corner, kMostOfFan, [&](Index around) {
+    if (surface.opposite(around) == kNone) most = std::numeric_limits<double>::infinity();
     const Vector3d& normal = surface.normal(around / 3);
     most = std::max(most, std::atan2(axis.dot(start.cross(normal)), start.dot(normal)));
   });

@@ -34,6 +34,7 @@ SurfaceMesh CurvedRegion::start() const {
   mesh.points = points;
   mesh.on.assign(points.size(), kNone);
   mesh.fixed.assign(points.size(), 0);
+  mesh.node = region.node;
   for (Index v : region.fixed) mesh.fixed[v] = 1;
   mesh.open.assign(4 * region.triangles.size(), false);
   for (Index t = 0; t < region.triangles.size(); ++t) {

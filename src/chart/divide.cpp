@@ -71,14 +71,14 @@ class Dividing {
     std::unique_ptr<LaidOut> part;
     if (double(faces.size()) <= kTooLarge * most_ && is_planar_topology(piece)) {
       part = lay_out(faces);
-      if (is_good(*part) || open(faces, piece)) {
-        if (is_good(*part)) accept(faces, std::move(part));
-        return {};
-      }
+      const bool good = is_good(*part);
+      if (!good) part = open(faces, piece);
+      if (part && is_good(*part)) return finish(faces, std::move(part));
     }
     auto smaller = cut(faces, piece);
     if (!smaller.empty()) return smaller;
-    if (!part || part->chart.flattening().flipped > 0)
+    part = lay_out(faces);
+    if (!is_planar_topology(piece) || part->chart.flattening().flipped > 0)
       throw SurfaceError("no part of it around " + describe(mesh_.points[mesh_.faces[faces[0]][0]]) +
                          " can be laid flat; mesh the surface anew or repair it");
     accept(faces, std::move(part));
@@ -87,8 +87,19 @@ class Dividing {
 
   void set_cut(Index side, bool cut) { division_.is_cut[side] = division_.is_cut[opposite_[side]] = cut; }
 
-  /// Cuts along the paths that open the part, until it has a good chart. False, and nothing is cut, if it never has.
-  bool open(const std::vector<Index>& faces, const Piece& piece) {
+  /// Accepts a part that lies flat, but for tips that have to be cut first.
+  std::vector<std::vector<Index>> finish(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
+    const std::vector<Index> path = path_from_narrow_tip(part->piece, part->chart.flat());
+    if (path.empty()) {
+      accept(faces, std::move(part));
+      return {};
+    }
+    for (Index side : sides_along(part->piece, path)) set_cut(side, true);
+    return components(faces, opposite_, division_.is_cut);
+  }
+
+  /// Cuts along the paths that open the part, until it has a good chart. Null, and nothing is cut, if it never has.
+  std::unique_ptr<LaidOut> open(const std::vector<Index>& faces, const Piece& piece) {
     std::vector<Index> sides;
     for (const std::vector<Index>& path : opening_paths(piece)) {
       for (Index side : sides_along(piece, path)) {
@@ -96,12 +107,10 @@ class Dividing {
         sides.push_back(side);
       }
       auto part = lay_out(faces);
-      if (!is_good(*part)) continue;
-      accept(faces, std::move(part));
-      return true;
+      if (is_good(*part)) return part;
     }
     for (Index side : sides) set_cut(side, false);
-    return false;
+    return nullptr;
   }
 
   std::vector<Index> sides_along(const Piece& piece, const std::vector<Index>& path) const {

@@ -2,7 +2,9 @@
 #include "chart/opening.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 #include "chart/topology.hpp"
@@ -12,6 +14,8 @@ namespace {
 
 /// A point inside at which angles lack more than this is the tip of a cone (radians).
 constexpr double kTip = 0.7;
+/// A corner with a smaller angle in the plane may become one quad.
+constexpr double kNarrow = 0.9 * std::numbers::pi;
 
 /// Where a path may end: the points of a loop, or a tip.
 struct Terminal {
@@ -100,6 +104,31 @@ std::vector<std::vector<Index>> opening_paths(const Piece& piece) {
     for (Index v : terminal.points) joined[v] = 1;
   }
   return paths;
+}
+
+std::vector<Index> path_from_narrow_tip(const Piece& piece, const std::vector<Vec2>& flat) {
+  std::vector<double> angles(piece.points.size(), 0);
+  for (const auto& t : piece.halves)
+    for (int i = 0; i < 3; ++i)
+      angles[t[i]] += std::abs(signed_angle(flat[t[(i + 1) % 3]] - flat[t[i]], flat[t[(i + 2) % 3]] - flat[t[i]]));
+  for (const std::vector<Index>& loop : loops_of(piece))
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Index tip = loop[k], after = loop[(k + 1) % loop.size()], before = loop[(k + loop.size() - 1) % loop.size()];
+      if (piece.node[before] != piece.node[after] || angles[tip] > kNarrow) continue;
+      // To the point of the boundary that lies straight ahead.
+      const Vec2 ahead = rotated(flat[after] - flat[tip], 0.5 * angles[tip]).normalized();
+      std::vector<char> is_goal(piece.points.size(), 0);
+      double best = -1;
+      Index goal = kNone;
+      for (const auto& other : loops_of(piece))
+        for (Index v : other) {
+          const double along = (flat[v] - flat[tip]).normalized().dot(ahead);
+          if (v != tip && along > best) best = along, goal = v;
+        }
+      is_goal[goal] = 1;
+      return Joining(piece).shortest({tip}, is_goal);
+    }
+  return {};
 }
 
 }  // namespace qmorph::chart

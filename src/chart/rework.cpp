@@ -45,6 +45,7 @@ SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces
   result.points = mesh.points;
   result.on = mesh.on;
   result.fixed = mesh.fixed;
+  result.node = mesh.node;
   for (Index f = 0; f < mesh.faces.size(); ++f) {
     if (gone[f]) continue;
     result.faces.push_back(mesh.faces[f]);

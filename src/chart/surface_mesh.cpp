@@ -80,6 +80,7 @@ Piece::Piece(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const 
         vertex.push_back(face[i]);
         on.push_back(mesh.on[face[i]]);
         fixed.push_back(mesh.fixed[face[i]]);
+        node.push_back(mesh.node[face[i]]);
         give(side, number);
         bool closed = false;
         for (Index e = across(side); e != kNone && !closed; e = across(e)) {

@@ -18,11 +18,15 @@ using Face = std::array<Index, 4>;
 inline Index degree(const Face& face) { return face[3] == kNone ? 3 : 4; }
 inline Index next_corner(const Face& face, Index i) { return i + 1 == degree(face) ? 0 : i + 1; }
 
+/// Nodes of the input have smaller numbers than new ones.
+inline constexpr Index kFirstNew = kNone / 2;
+
 /// A manifold of faces whose nodes lie on the triangles of a background.
 struct SurfaceMesh {
   std::vector<Eigen::Vector3d> points;
   std::vector<Index> on;      ///< triangle of the background, of each point
   std::vector<char> fixed;    ///< by point; those of the boundary need not be marked
+  std::vector<Index> node;    ///< by point: those on both sides of a line have the same
   std::vector<Face> faces;
   std::vector<bool> open;     ///< sides that are boundary
   std::vector<Index> near;    ///< triangle of the background on or beside each face
@@ -31,6 +35,7 @@ struct SurfaceMesh {
     points.push_back(p);
     on.push_back(triangle);
     fixed.push_back(0);
+    node.push_back(kFirstNew + Index(points.size() - 1));
     return Index(points.size() - 1);
   }
 };
@@ -42,7 +47,7 @@ std::vector<Index> opposite_sides(const SurfaceMesh& mesh);
 struct Piece {
   std::vector<Eigen::Vector3d> points;
   std::vector<Index> vertex;  ///< of the mesh, of each point
-  std::vector<Index> on;
+  std::vector<Index> on, node;
   std::vector<char> fixed;
   std::vector<Face> faces;
   std::vector<Index> near;
