@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "space/mesh_normals.hpp"
-#include "space/reference.hpp"
-#include "space/surface_normals.hpp"
+#include "space/result.hpp"
 
 namespace qmorph {
 namespace {
@@ -82,32 +81,17 @@ class Shapes::InSpace {
   explicit InSpace(const SurfaceElements& mesh)
       : sides_(mesh.points.size(), mesh.triangles, mesh.quads), by_mesh_(std::in_place, mesh.points, sides_) {}
 
-  InSpace(const Patch& before, const QuadMesh& after)
-      : sides_(after.points.size(), after.triangles, after.quads, kept_constraints(before, after)),
-        reference_(std::in_place, before),
-        triangle_(
-            space::locate({reference_->surface, after.points, after.triangles, after.quads, after.source}, sides_)) {}
+  InSpace(const Patch& before, const QuadMesh& after) : sides_(0, {}, {}), result_(std::in_place, before, after) {}
 
   template <std::size_t N>
-  space::CornerNormals<N> normals(Index element, const Corners<N>& p) const {
-    return by_mesh_ ? by_mesh_->of<N>(element) : space::normals_on(reference_->surface, p, triangle_[element]);
+  std::array<double, N> sines(Index element, const Corners<N>& p, const std::array<Index, N>& nodes) const {
+    return result_ ? result_->sines(element, p, nodes) : space::corner_sines(p, by_mesh_->of<N>(element));
   }
 
  private:
-  static std::vector<std::array<Index, 2>> kept_constraints(const Patch& before, const QuadMesh& after) {
-    std::vector<Index> row(before.points.size(), kNone);
-    for (Index i = 0; i < after.source.size(); ++i)
-      if (after.source[i] != kNone) row[after.source[i]] = i;
-    std::vector<std::array<Index, 2>> constraints;
-    for (const auto& [a, b] : before.constraints)
-      if (row[a] != kNone && row[b] != kNone) constraints.push_back({row[a], row[b]});
-    return constraints;
-  }
-
   space::ElementSides sides_;
   std::optional<space::MeshNormals> by_mesh_;
-  std::optional<space::Reference> reference_;
-  std::vector<Index> triangle_;  ///< of the reference, by element
+  std::optional<space::Result> result_;
 };
 
 Shapes::Shapes(const SurfaceElements& mesh, const Vector3d& normal) : mesh_(mesh), normal_(normal) {}
@@ -136,12 +120,12 @@ ElementShape Shapes::shape(Index element, const std::array<Index, N>& nodes) con
   std::array<double, N> angles;
   Vector3d normal = normal_;
   if (in_space_) {
-    const space::CornerNormals<N> normals = in_space_->normals(element, p);
-    const std::array<double, N> sines = space::corner_sines(p, normals);
+    const std::array<double, N> sines = in_space_->sines(element, p, nodes);
     shape.scaled_jacobian = *std::min_element(sines.begin(), sines.end());
     angles = space::corner_angles_deg(p, sines);
     normal = space::element_normal(p);
-    if (normal.dot(normals.whole) < 0) normal = -normal;
+    // Turned over if most corners are.
+    if (std::count_if(sines.begin(), sines.end(), [](double sine) { return sine < 0; }) > long(N) / 2) normal = -normal;
   } else {
     shape.scaled_jacobian = scaled_jacobian(p, normal);
     if constexpr (N == 4) angles = corner_angles_deg(p, normal);

@@ -68,29 +68,36 @@ Foot Background::foot_on(Index t, const Vector3d& p) const {
 
 Foot Background::walk(const Vector3d& p, Index hint) const {
   constexpr int kMostSteps = 1000;
-  constexpr Index kMostOfFan = 24;      // in a fan of thousands, steps must stay cheap
-  constexpr double kOnSurface = 1e-14;  // squared distance over the squared side: no triangle can be nearer
+  constexpr Index kMostOfFan = 24;  // in a fan of thousands, steps must stay cheap
   Foot best = foot_on(hint, p);
   for (int step = 0; step < kMostSteps; ++step) {
     const Index t = best.triangle;
-    if (best.distance2 <= kOnSurface * (corner(t, 1) - corner(t, 0)).squaredNorm() && best.weights.minCoeff() > 0)
-      break;
+    const Foot here = best;
     const auto look_at = [&](Index other) {
+      if (other == t) return;
       const Foot foot = foot_on(other, p);
       if (foot.distance2 < best.distance2) best = foot;
     };
-    // Across the side that the foot lies on; else, and at a corner, all round.
+    // What is nearer to p than its foot is nearer to the foot than twice that distance: across sides that are, and at corners.
+    const double reach2 = 4 * here.distance2;
     for (int i = 0; i < 3; ++i)
-      if (best.triangle == t && best.weights[(i + 2) % 3] <= 0)
+      if (height2(here, (i + 2) % 3) <= reach2)
         if (const Index other = neighbour(t, i); other != kNone) look_at(other);
     if (best.triangle != t) continue;
     for (Index i = 0; i < 3; ++i)
-      for_fan(3 * t + i, kMostOfFan, [&](Index side) {
-        if (side / 3 != t) look_at(side / 3);
-      });
+      if ((corner(t, int(i)) - here.point).squaredNorm() <= reach2)
+        for_fan(3 * t + i, kMostOfFan, [&](Index side) { look_at(side / 3); });
     if (best.triangle == t) break;
   }
   return best;
+}
+
+/// Squared distance of a foot from the side of its triangle across from corner i; 0 in a triangle without area.
+double Background::height2(const Foot& foot, int i) const {
+  const Vector3d &a = corner(foot.triangle, i), &b = corner(foot.triangle, (i + 1) % 3),
+                 &c = corner(foot.triangle, (i + 2) % 3);
+  const double side2 = (c - b).squaredNorm(), share = foot.weights[i];
+  return side2 > 0 ? share * share * (b - a).cross(c - a).squaredNorm() / side2 : 0;
 }
 
 }  // namespace qmorph::space

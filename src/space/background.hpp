@@ -74,6 +74,7 @@ class Background {
 
  private:
   void add_fans();
+  double height2(const Foot& foot, int i) const;
   static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
 

@@ -8,7 +8,7 @@
 
 #include "geometry/predicates.hpp"
 #include "space/mesh_normals.hpp"
-#include "space/reference.hpp"
+#include "space/result.hpp"
 
 namespace qmorph::space {
 namespace {
@@ -28,14 +28,6 @@ Corners<N> corners_of(std::span<const Vector3d> points, const std::array<Index, 
   return corners;
 }
 
-/// Corner with the smallest sine, if that is too small; else N.
-template <std::size_t N>
-std::size_t bad_corner(const Corners<N>& p, const CornerNormals<N>& normals) {
-  const auto sines = corner_sines(p, normals);
-  const auto least = std::min_element(sines.begin(), sines.end());
-  return *least > kLeastSine<N> ? N : std::size_t(least - sines.begin());
-}
-
 /// Nodes less edges plus elements.
 long characteristic(std::size_t nodes, std::span<const std::array<Index, 3>> triangles,
                     std::span<const std::array<Index, 4>> quads) {
@@ -51,56 +43,28 @@ long characteristic(std::size_t nodes, std::span<const std::array<Index, 3>> tri
   return count;
 }
 
-class Inspection {
- public:
-  Inspection(const Patch& before, const QuadMesh& after)
-      : mesh_(after),
-        reference_(before),
-        sides_(after.points.size(), after.triangles, after.quads, barriers(before, after)),
-        triangle_(locate({reference_.surface, after.points, after.triangles, after.quads, after.source}, sides_)) {}
+/// Corner with the smallest sine, if that is too small; else N.
+template <std::size_t N>
+std::size_t bad_corner(const std::array<double, N>& sines) {
+  const auto least = std::min_element(sines.begin(), sines.end());
+  return *least > kLeastSine<N> ? N : std::size_t(least - sines.begin());
+}
 
-  std::optional<Fault> run(std::size_t kept) const {
-    const Index triangles = Index(mesh_.triangles.size());
-    for (Index t = 0; t < triangles; ++t)
-      if (auto fault = look_at(mesh_.triangles[t], t)) return fault;
-    for (Index q = Index(kept); q < mesh_.quads.size(); ++q)
-      if (auto fault = look_at(mesh_.quads[q], triangles + q)) return fault;
-    return {};
+template <std::size_t N>
+std::optional<Fault> look_at(const Result& result, Index element, const std::array<Index, N>& nodes) {
+  const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
+  const std::size_t corner = bad_corner(result.sines(element, p, nodes));
+  if (corner < N && !is_folded_under(result.surface(), p, result.triangle(element)))
+    return Fault{"an element has a corner that is not convex", p[corner]};
+  for (std::size_t i = 0; i < N; ++i) {
+    const Index row = result.mesh().source[nodes[i]];
+    if (row != kNone && result.surface().point(row) == p[i]) continue;
+    const double length2 = (p[(i + 1) % N] - p[i]).squaredNorm();
+    if (!(result.foot(element, nodes[i]).distance2 <= kOffSurface * kOffSurface * length2))
+      return Fault{"a node has left the surface", p[i]};
   }
-
- private:
-  static std::vector<std::array<Index, 2>> barriers(const Patch& before, const QuadMesh& after) {
-    std::vector<Index> row(before.points.size(), kNone);
-    for (Index i = 0; i < after.source.size(); ++i)
-      if (after.source[i] != kNone) row[after.source[i]] = i;
-    std::vector<std::array<Index, 2>> edges;
-    for (const auto& [a, b] : before.constraints)
-      if (row[a] != kNone && row[b] != kNone) edges.push_back({row[a], row[b]});
-    return edges;
-  }
-
-  template <std::size_t N>
-  std::optional<Fault> look_at(const std::array<Index, N>& nodes, Index element) const {
-    const Background& surface = reference_.surface;
-    const Corners<N> p = corners_of<N>(mesh_.points, nodes);
-    const std::size_t corner = bad_corner(p, normals_on(surface, p, triangle_[element]));
-    if (corner < N && !is_folded_under(surface, p, triangle_[element]))
-      return Fault{"an element has a corner that is not convex", p[corner]};
-    for (std::size_t i = 0; i < N; ++i) {
-      const Index row = mesh_.source[nodes[i]];
-      if (row != kNone && surface.point(row) == p[i]) continue;
-      const double length2 = (p[(i + 1) % N] - p[i]).squaredNorm();
-      if (!(surface.walk(p[i], triangle_[element]).distance2 <= kOffSurface * kOffSurface * length2))
-        return Fault{"a node has left the surface", p[i]};
-    }
-    return {};
-  }
-
-  const QuadMesh& mesh_;
-  Reference reference_;
-  ElementSides sides_;
-  std::vector<Index> triangle_;
-};
+  return {};
+}
 
 }  // namespace
 
@@ -134,7 +98,12 @@ template bool is_folded_under(const Background&, const Corners<3>&, Index);
 template bool is_folded_under(const Background&, const Corners<4>&, Index);
 
 std::optional<Fault> find_fault(const Patch& before, const QuadMesh& after, std::size_t kept) {
-  if (auto fault = Inspection(before, after).run(kept)) return fault;
+  const Result result(before, after);
+  const Index triangles = Index(after.triangles.size());
+  for (Index t = 0; t < triangles; ++t)
+    if (auto fault = look_at(result, t, after.triangles[t])) return fault;
+  for (Index q = Index(kept); q < after.quads.size(); ++q)
+    if (auto fault = look_at(result, triangles + q, after.quads[q])) return fault;
   if (characteristic(before.points.size(), before.triangles, before.quads) !=
       characteristic(after.points.size(), after.triangles, after.quads))
     return Fault{"a handle or a hole has come or gone", after.points.empty() ? Vector3d::Zero() : after.points[0]};
@@ -145,8 +114,8 @@ Index find_bad_quad(const Patch& patch, Index& corner) {
   const ElementSides sides(patch.points.size(), patch.triangles, patch.quads, patch.constraints);
   const MeshNormals normals(patch.points, sides);
   for (Index q = 0; q < patch.quads.size(); ++q) {
-    const std::size_t k =
-        bad_corner(corners_of<4>(patch.points, patch.quads[q]), normals.of<4>(Index(patch.triangles.size()) + q));
+    const std::size_t k = bad_corner(
+        corner_sines(corners_of<4>(patch.points, patch.quads[q]), normals.of<4>(Index(patch.triangles.size()) + q)));
     if (k == 4) continue;
     corner = patch.quads[q][k];
     return q;

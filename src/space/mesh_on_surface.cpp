@@ -34,21 +34,6 @@ struct TurnedAxes {
   Vec2 operator()(const Vector3d& w) const { return {w.dot(u), w.dot(v)}; }
 };
 
-/// All sines are larger than `least`, and cross products of sides are along the normals.
-template <std::size_t N>
-bool is_clear(const Corners<N>& p, const CornerNormals<N>& normals, double least) {
-  constexpr double kClear = 0.5;  // cosine between a corner's cross product and the normals
-  const double clear_of_whole = kClear * normals.whole.norm();
-  for (std::size_t i = 0; i < N; ++i) {
-    const Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i], cross = ahead.cross(behind);
-    const double area = cross.norm();
-    if (!(area > least * std::sqrt(ahead.squaredNorm() * behind.squaredNorm())) ||
-        !(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area))
-      return false;
-  }
-  return true;
-}
-
 std::multimap<Index, Index> triangles_by_corner(const Background& surface) {
   std::multimap<Index, Index> triangles;
   for (Index t = 0; t < surface.triangles(); ++t)
@@ -173,8 +158,9 @@ double MeshOnSurface::smallest_sine(Index f) const {
 
 bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
   const Face& face = mesh_.faces[f];
-  return chart::degree(face) == 4 ? is_clear(corners<4>(face), normals<4>(f), sine)
-                                  : is_clear(corners<3>(face), normals<3>(f), sine);
+  const auto is_above = [&](const auto& p, const auto& n) { return is_clear(p, n) && scaled_jacobian(p, n) > sine; };
+  return chart::degree(face) == 4 ? is_above(corners<4>(face), normals<4>(f))
+                                  : is_above(corners<3>(face), normals<3>(f));
 }
 
 double MeshOnSurface::exact_sine(Index f) const {

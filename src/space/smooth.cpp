@@ -35,29 +35,29 @@ class Smoother {
 
  private:
   /// Moves a node by a share of the step, if no element around gets worse than the worst was, unless it stays good.
-  bool try_step(Index v, const UnfoldedStar& star, const Vec2& step, double least) {
+  bool try_step(Index v, const UnfoldedStar& star, const Vec2& step, bool is_sure) {
     const MeshOnSurface::Place before = mesh_.place(v);
+    const double least = is_sure ? 0 : std::min(options_.good_quality, mesh_.smallest_sine_around(v));
     mesh_.move(v, mesh_.foot(v, mesh_.point(v) + star.in_space(step)));
-    if (mesh_.smallest_sine_around(v) >= least) return true;
+    if (is_sure || mesh_.smallest_sine_around(v) >= least) return true;
     mesh_.move(v, before);
     return false;
   }
 
   /// Returns how far the node moved, in edges.
   template <class EnergyAt>
-  double descend(Index v, const UnfoldedStar& star, const Energy& energy, double first_share, double good,
+  double descend(Index v, const UnfoldedStar& star, const Energy& energy, double first_share, double sure_energy,
                  const EnergyAt& energy_at) {
     constexpr int kHalvings = 4;
     constexpr double kLeastStep = 1e-3;  // of an edge: less is not worth a look around
     const Vec2 step = step_of(energy, star.edge);
     const double length = step.norm() / star.edge;
     if (!(length > kLeastStep)) return 0;
-    const double least = std::min(good, mesh_.smallest_sine_around(v));
     double share = first_share;
     for (int i = 0; i < kHalvings; ++i, share /= 2) {
       const Energy there = energy_at(share * step);
       if (!there.finite || !(there.value < energy.value)) continue;
-      if (try_step(v, star, share * step, least)) return share * length;
+      if (try_step(v, star, share * step, there.value < sure_energy)) return share * length;
     }
     return 0;
   }
@@ -68,8 +68,10 @@ class Smoother {
     energies_.set(star_.elements);
     const Energy energy = energies_.energy_with_derivatives(Vec2::Zero());
     if (!energy.finite) return 0;
-    return descend(v, star_, energy, kOverRelaxation, options_.good_quality,
-                   [&](const Vec2& p) { return energies_.energy(p); });
+    // Of 3 corners of each element the energy is the sum of mu^2, each at least 1 and at least the sine^-2 of its corner: if the
+    // sum leaves so much to one alone, all corners are good.
+    const double sure = double(3 * star_.elements.size() - 1) + std::pow(options_.good_quality, -2);
+    return descend(v, star_, energy, kOverRelaxation, sure, [&](const Vec2& p) { return energies_.energy(p); });
   }
 
   bool relax_all() {
@@ -89,7 +91,7 @@ class Smoother {
     if (!mesh_.unfold(v, star_)) return 0;
     const Energy energy = smoothing::corner_energy(star_.elements, Vec2::Zero(), true);
     if (!energy.finite) return 0;
-    return descend(v, star_, energy, 1, options_.good_quality,
+    return descend(v, star_, energy, 1, 0,
                    [&](const Vec2& p) { return smoothing::corner_energy(star_.elements, p, false); });
   }
 
