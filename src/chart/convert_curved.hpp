@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include "qmorph/options.hpp"
-#include "qmorph/patch.hpp"
+#include "engine/surface.hpp"
 
 namespace qmorph::chart {
 
-/// convert() of a patch that is not planar.
-QuadMesh convert_curved(const Patch& patch, const Options& options);
+/// convert() and improve() of a patch that is not planar.
+SurfaceWork convert_curved(const Patch& patch, const Options& options);
+SurfaceWork improve_curved(const Patch& patch, const Options& options);
 
 }  // namespace qmorph::chart

@@ -1,69 +1,41 @@
-#include "engine/collector.hpp"
+#include <optional>
+#include <utility>
+
+#include "chart/convert_curved.hpp"
+#include "engine/improve_region.hpp"
 #include "engine/mixed.hpp"
 #include "engine/overlap.hpp"
-#include "engine/prepare.hpp"
 #include "engine/surface.hpp"
 #include "qmorph/convert.hpp"
 
 namespace qmorph {
 namespace {
 
-/// A region whose elements are valid now, as triangles alone and as the mesh that it is.
-struct Start {
-  Region region;
-  kernel::Mesh mesh;
-};
-
-Start make_start(const Region& region, std::size_t triangles, const Plane& plane, const Options& options) {
-  Start start{region, join_halves(region, triangles)};
-  mend_quads(start.mesh, options.smoothing, plane);
-  repair_input(start.mesh, plane);
-  take_triangles(start.mesh, start.region);
-  return start;
-}
-
-kernel::Mesh improve_region(const Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            ConversionStats& stats, Snapshots* snapshots) {
-  Pipeline pipeline(options, stats, snapshots, input);
-  kernel::Mesh mesh = start.mesh;
-  pipeline.finish(mesh);
-  const std::string fault = find_fault(mesh, start.region, plane);
-  if (fault.empty()) return mesh;
-
-  // What quads leave no room for may be possible without them.
-  kernel::Mesh triangles(start.region.points, start.region.triangles, start.region.open);
-  for (Index v : start.region.fixed) triangles.set_fixed(v);
-  pipeline.advance_front(triangles);
-  pipeline.finish(triangles);
-  if (!find_fault(triangles, start.region, plane).empty()) throw SurfaceError(fault);
-  return triangles;
-}
-
-QuadMesh improve_patch(const Patch& patch, const Options& options) {
+SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
   const std::size_t triangles = patch.triangles.size();
   const std::optional<Plane> plane = find_plane(halves);
-  if (!plane) throw SurfaceError("not planar; quads of curved surfaces are not improved yet");
+  if (!plane) return chart::improve_curved(patch, options);
   const Surface surface(halves, *plane);
-  std::vector<Start> starts;
+  std::vector<ImproveStart> starts;
   std::vector<Region> regions;
   for (const Region& region : surface.regions) {
-    starts.push_back(make_start(region, triangles, surface.plane, options));
+    starts.push_back(start_improving(region, join_halves(region, triangles), surface.plane, options));
     regions.push_back(starts.back().region);
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options, [&](std::size_t r, const Options& own, ConversionStats& stats, Snapshots* snapshots) {
-        const kernel::Mesh input = snapshots ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
-        return improve_region(starts[r], input, surface.plane, own, stats, snapshots);
+      surface, options, [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
+        const kernel::Mesh input = wants_stages(own) ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
+        return improve_region(starts[r], input, surface.plane, own, report, record);
       });
 }
 
 }  // namespace
 
-QuadMesh improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
+Conversion improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
 
 std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options) {
   return work_on_patches(patches, options, improve_patch);
