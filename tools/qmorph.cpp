@@ -16,7 +16,7 @@ bool running = false;
 void say_that_gmsh_ended_it() {
   if (!running) return;
   std::cerr << "qmorph: Gmsh ended the program (does the script say Exit?); nothing has been written\n";
-  ::_exit(qmorph::cli::kBadInput);
+  ::_exit(qmorph::cli::bad_input);
 }
 
 }  // namespace

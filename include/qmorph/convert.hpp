@@ -2,14 +2,20 @@
 /// The engine's door.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "qmorph/error.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
+#include "qmorph/report.hpp"
 
 namespace qmorph {
+
+/// A surface in quads, and what was done for it.
+struct Conversion {
+  QuadMesh mesh;
+  ConversionReport report;
+};
 
 /// Turns the triangles of a planar surface into quads (Q-Morph, Owen et al. 1999).
 ///
@@ -19,25 +25,26 @@ namespace qmorph {
 /// boundary sides is even, exactly one where it is odd. The result depends on the arguments alone.
 ///
 /// \throws SurfaceError if the surface is not planar, not a manifold, not oriented consistently, overlaps itself,
-///         has a NaN coordinate, or cannot be converted without a bad element. The message says where.
+///         has a NaN coordinate, or cannot be converted without a bad element. It says where.
+/// \throws Cancelled if `Options::progress` says so; whatever it or `Options::observer` throws
 /// Cost: linear in the number of triangles.
-QuadMesh convert(const Patch& patch, const Options& options = {});
+Conversion convert(const Patch& patch, const Options& options = {});
 
 /// Makes a better quad mesh of one that is there already, by whoever made it: triangles and quads in any share, both free
 /// to change. Triangles are paired and passed to one another as far as parity lets, then the stages of convert() after
-/// the front follow. `ConversionStats::front_quads` stays 0 but for regions where only the front found valid elements.
+/// the front follow. `ConversionReport::front_quads` stays 0 but for regions where only the front found valid elements.
 ///
 /// Quads that are not convex or turned over are untangled by moving their nodes, else cut into triangles that take part.
 /// Guarantees as convert() does, for every region of triangles and quads; `Patch::quads` are not kept.
 ///
 /// \throws SurfaceError as convert() does, and where an element that is turned over cannot be turned back by moving nodes.
 /// Cost: linear in the number of elements.
-QuadMesh improve(const Patch& patch, const Options& options = {});
+Conversion improve(const Patch& patch, const Options& options = {});
 
-/// What became of one surface of several.
+/// What became of one surface of several: a conversion, or an error.
 struct Outcome {
-  std::optional<QuadMesh> mesh;
-  std::string reason;  ///< message of the SurfaceError, if there is no mesh
+  std::optional<Conversion> conversion;
+  std::optional<SurfaceError> error;
   double seconds = 0;  ///< of this surface; others may have been worked on meanwhile
 };
 

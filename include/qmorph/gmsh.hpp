@@ -1,37 +1,43 @@
 #pragma once
-/// The door for programs that already run the Gmsh API: the stand-in for `gmsh::model::mesh::recombine()`.
-/// Mentions no Gmsh type; link `qmorph_gmsh`.
+/// The door for programs that already run the Gmsh API: `qmorph::gmsh::recombine()` in the place of
+/// `gmsh::model::mesh::recombine()`. Mentions no Gmsh type; link `qmorph::gmsh`.
+///
+/// `qmorph::gmsh` is Gmsh's own namespace by another name, and our functions can be seen from there. With a namespace of our
+/// own called `gmsh`, no program that says `using namespace qmorph` could write `gmsh::` any more.
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "qmorph/error.hpp"
 #include "qmorph/options.hpp"
-#include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
+#include "qmorph/report.hpp"
 
 namespace qmorph {
 
 /// What became of one surface.
 enum class SurfaceOutcome {
-  kConverted,     ///< its triangles are quads now
-  kAlreadyQuads,  ///< it had no triangle and is as it was
-  kLeft,          ///< it could not be converted and is as it was; `reason` says why
+  converted,      ///< its triangles are quads now
+  already_quads,  ///< it had no triangle and is as it was
+  left,           ///< it could not be converted and is as it was; `reason` says why
 };
 
 /// One surface, before and after.
 struct SurfaceReport {
   int tag = 0;
   std::string name;  ///< of its first physical group, or empty
-  SurfaceOutcome outcome = SurfaceOutcome::kLeft;
-  std::string reason;                 ///< of kLeft: what is wrong, where, and what to do
+  SurfaceOutcome outcome = SurfaceOutcome::left;
+  std::string reason;                 ///< of left: what is wrong, where, and what to do
+  std::optional<ErrorDetails> error;  ///< of left: the same for programs
   std::vector<std::string> warnings;  ///< of a surface that was converted all the same
   std::size_t triangles_in = 0, quads_in = 0;
   std::size_t triangles_out = 0, quads_out = 0;
-  Quality quality;  ///< of what came out; all defaults for kLeft
-  ConversionStats stats;
+  Quality quality;              ///< of what came out; all defaults for left
+  ConversionReport conversion;  ///< of converted: what was done
+  int image_of = 0;  ///< the surface whose quads it has, if it is periodic with one that was converted; else 0
   double seconds = 0;
 };
 
@@ -44,27 +50,6 @@ struct ModelReport {
 
   std::size_t count(SurfaceOutcome outcome) const;
 };
-
-/// Turns the triangles of surfaces of the current Gmsh model into quads, in place.
-///
-/// Line elements, point elements, curve nodes, physical groups, entities and all other surfaces stay as they are;
-/// new nodes and elements get tags that nothing else has. A surface that cannot be converted is left as it
-/// was and reported as kLeft.
-/// \param surfaces tags of the surfaces to convert; all if empty. A tag that the model does not have is a
-///        UsageError.
-/// \pre Gmsh is initialised, and called from this thread only. Gmsh's logger is not running.
-/// \throws UsageError, InputError if the mesh of the model contradicts itself; the model is unchanged then.
-/// Cost: linear in the size of the model.
-ModelReport recombine(const std::vector<int>& surfaces = {}, const Options& options = {});
-
-/// The same for surfaces that consist of quads already, or of quads and triangles, as Gmsh's own recombination leaves
-/// them: all their elements may change, and what comes out has better quads (see `improve()` of qmorph/convert.hpp).
-/// Surfaces come out as kConverted or kLeft.
-ModelReport improve_quads(const std::vector<int>& surfaces = {}, const Options& options = {});
-
-/// Figures of surfaces as they are; nothing changes. Surfaces come out as kAlreadyQuads, whatever they consist of, those
-/// that have no figures (not a manifold, no orientation) with a reason.
-ModelReport measure(const std::vector<int>& surfaces = {});
 
 /// An edge of the mesh that got a node in its middle.
 struct SplitEdge {
@@ -80,6 +65,31 @@ struct EvenReport {
   std::vector<int> odd_surfaces;  ///< where a region stays odd, since no edge that may be split leads there; sorted
 };
 
+/// What is done to the model of the running Gmsh session: also to be found as `qmorph::gmsh`.
+/// \pre Gmsh is initialised, and called from this thread only. Gmsh's logger is not running.
+namespace session {
+
+/// Turns the triangles of surfaces of the current Gmsh model into quads, in place.
+///
+/// Line elements, point elements, curve nodes, physical groups, entities and all other surfaces stay as they are;
+/// new nodes and elements get tags that nothing else has. A surface that cannot be converted is left as it
+/// was and reported as left.
+/// \param surfaces tags of the surfaces to convert; all if empty. A tag that the model does not have is a UsageError.
+/// \throws UsageError, InputError if the mesh of the model contradicts itself, Cancelled, what `Options::progress` and
+///         `Options::observer` throw; the mesh is unchanged then. (Nodes that a file gives to entities which do not use them
+///         may belong to others already, which Gmsh calls reclassification.)
+/// Cost: linear in the size of the model.
+ModelReport recombine(const Options& options = {}, const std::vector<int>& surfaces = {});
+
+/// The same for surfaces that consist of quads already, or of quads and triangles, as Gmsh's own recombination leaves
+/// them: all their elements may change, and what comes out has better quads (see `improve()` of qmorph/convert.hpp).
+/// Surfaces come out as converted or left.
+ModelReport improve_quads(const Options& options = {}, const std::vector<int>& surfaces = {});
+
+/// Figures of surfaces as they are; nothing changes. Surfaces come out as already_quads, whatever they consist of, those
+/// that have no figures (not a manifold, no orientation) with a reason.
+ModelReport measure_surfaces(const std::vector<int>& surfaces = {});
+
 /// Splits edges of curves, and the triangles beside them, so that every region (see `convert()`) gets an even number of
 /// sides: `recombine()` leaves no triangle then. It is the only call that changes curves. Existing nodes stay.
 /// \param surfaces as for `recombine()`; others, and edges that they share, stay as they are
@@ -88,11 +98,13 @@ struct EvenReport {
 ///         unchanged then.
 EvenReport make_even(const std::vector<int>& surfaces = {}, const std::vector<int>& keep_curves = {});
 
-namespace gmsh {
-
-/// `qmorph::recombine()` for all surfaces: the stand-in for `gmsh::model::mesh::recombine()` by the name that says so.
-inline ModelReport recombine(const Options& options = {}) { return qmorph::recombine({}, options); }
-
-}  // namespace gmsh
-
+}  // namespace session
 }  // namespace qmorph
+
+namespace gmsh {
+using namespace qmorph::session;
+}
+
+namespace qmorph {
+namespace gmsh = ::gmsh;
+}

@@ -1,7 +1,8 @@
 #pragma once
-/// Every number of the algorithm that a caller may want to change. Angles are in radians; lengths are
-/// never absolute.
+/// Every number of the algorithm that a caller may want to change. Angles are in radians, times in seconds; lengths are
+/// never absolute: they are relative to edges nearby, and have no unit.
 
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -9,6 +10,8 @@
 #include <vector>
 
 namespace qmorph {
+
+class Observer;
 
 /// Constants of the advancing front.
 struct FrontOptions {
@@ -29,8 +32,8 @@ struct FrontOptions {
 struct CleanupOptions {
   /// A quad with a larger angle is a chevron. Thesis 3.6.1, 4.1.11 (200 degrees there, for want of stability).
   double chevron_angle = std::numbers::pi;
-  /// The cases of the thesis (3.6, appendix): rounds of them, and which take part. Measured on all planar meshes of
-  /// cases/gmsh (87 thousand quads): alone they bring the irregular nodes from 14.4 % to 10.1 %, cavities and changes by
+  /// The cases of the thesis (3.6, appendix): rounds of them, and which take part. Measured on 33 planar
+  /// meshes of Gmsh (87 thousand quads): alone they bring the irregular nodes from 14.4 % to 10.1 %, cavities and changes by
   /// score (cleanup/clean_up.hpp) alone to 2.4 %. Beside those, transitions and large angles raise the mean scaled Jacobian of
   /// the thesis' models from 0.812 to 0.819, and diamonds the smallest one of geo/ from 0.38 to 0.47 where a passage
   /// is narrow: on. Tables 1 to 3 of the appendix find nothing there any more: off.
@@ -66,7 +69,7 @@ struct ThesisSmoothing {
   double coincidence = 0.01;
 };
 
-/// How nodes are moved. Measured on the planar meshes of cases/gmsh, shape_energy and thesis: scaled Jacobian min 0.35 and
+/// How nodes are moved. Measured on 33 planar meshes of Gmsh, shape_energy and thesis: scaled Jacobian min 0.35 and
 /// 0.25, mean 0.969 and 0.967, mean of the 1st percentiles 0.79 and 0.76, quads under 0.3 none and 64, irregular
 /// nodes 2.5 and 2.6 %, seconds of all stages 1.1 and 1.9. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly better.
 enum class SmoothingMethod {
@@ -86,6 +89,15 @@ struct SmoothingOptions {
   double target_quality = 0.3;   ///< elements with a smaller scaled Jacobian are optimised one node at a time
 };
 
+/// Whether the work is to go on.
+enum class Progress { go_on, cancel };
+
+/// Gets the name of a stage that is at work and the share of all that is done, 0 to 1: one call at a time, but not always from the
+/// same thread. With `cancel` the work ends at the next look of each thread, in general within a stage, and `Cancelled` is
+/// thrown. An exception of the callback's own ends the work in the same way and comes out unchanged. In both cases
+/// nothing is left of the conversion; a Gmsh model has the mesh that it had.
+using ProgressCallback = std::function<Progress(std::string_view stage, double share)>;
+
 /// All options of one conversion.
 struct Options {
   FrontOptions front;
@@ -102,14 +114,12 @@ struct Options {
   double crease_angle = 2 * std::numbers::pi / 9;
   /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
   bool check_each_step = false;
-  bool measure_stages = false;  ///< `ConversionStats::stages` is filled: a copy of the mesh and a measurement a stage
-  bool keep_stages = false;         ///< with `measure_stages`: `StageFigures::meshes` is filled
-  bool record_film = false;         ///< `ConversionStats::films` is filled
   /// Threads at most; 0: as many as the machine has. The result does not depend on it.
   int threads = 0;
-  /// Called now and then with the name of a stage that is at work and the share of all that is done (0 to 1): one call at a time,
-  /// but not always from the same thread. May be empty.
-  std::function<void(std::string_view stage, double share)> progress;
+  /// Called now and then; may be empty.
+  ProgressCallback progress;
+  /// Watches how the result comes about (observer.hpp); may be null. It has to live as long as the call that it watches.
+  Observer* observer = nullptr;
 };
 
 /// Sets one number by its name, as `--set NAME=VALUE` of the command does: the constants of the thesis by the thesis'

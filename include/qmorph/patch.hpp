@@ -6,18 +6,17 @@
 #include <vector>
 
 #include "qmorph/index.hpp"
-#include "qmorph/stats.hpp"
 
 namespace qmorph {
 
 /// One surface, as its mesh is. All indices are rows of `points`; lengths are in the model's unit.
 struct Patch {
-  std::vector<Eigen::Vector3d> points;             ///< every node that an element of the surface uses
-  std::vector<std::array<Index, 3>> triangles;     ///< consistently oriented, to be converted
-  std::vector<std::array<Index, 4>> quads;         ///< already there; kept as they are
-  std::vector<std::array<Index, 2>> constraints;   ///< edges to keep: line elements on or in the surface
-  std::vector<Index> fixed;                        ///< nodes to keep in place, besides those of the
-                                                   ///< boundary and of the constraints
+  std::vector<Eigen::Vector3d> points;            ///< every node that an element of the surface uses
+  std::vector<std::array<Index, 3>> triangles;    ///< consistently oriented, to be converted
+  std::vector<std::array<Index, 4>> quads;        ///< already there; kept as they are
+  std::vector<std::array<Index, 2>> constraints;  ///< edges to keep: line elements on or in the surface
+  std::vector<Index> fixed;                       ///< nodes to keep in place, besides those of the
+                                                  ///< boundary and of the constraints
 };
 
 /// The same surface in quads. Nodes that are fixed, on the boundary or on a constraint have the
@@ -27,7 +26,6 @@ struct QuadMesh {
   std::vector<Index> source;                    ///< row of `Patch::points`, or kNone for a new node
   std::vector<std::array<Index, 3>> triangles;  ///< at most one for each region with an odd boundary
   std::vector<std::array<Index, 4>> quads;      ///< `Patch::quads` first
-  ConversionStats stats;
 };
 
 }  // namespace qmorph

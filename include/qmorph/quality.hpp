@@ -1,12 +1,12 @@
 #pragma once
-/// The quality figures of design section 7, one definition for report, JSON and tests.
+/// The quality figures: one definition for report, JSON and tests.
 ///
 /// Sources, by the names that the comments below use:
 /// [Verdict]  C. Stimpson, C. Ernst, P. Knupp, P. Pebay, D. Thompson: The Verdict Library Reference Manual,
 ///            SAND2007-2853P. A quad is acceptable from scaled Jacobian 0.3 and angles of 45 to 135 degrees.
 /// [Gmsh]     `Mesh.RecombineMinimumQuality` in the Gmsh reference manual; Remacle et al., "Blossom-Quad", IJNME 89
 ///            (2012), eq. 6.
-/// [thesis]   reference/q-morph-thesis.md, eq. 2.2 with the factor 4 of section 3.7; glossary for the valence.
+/// [thesis]   the Q-Morph thesis (src/README.md), eq. 2.2 with the factor 4 of section 3.7; glossary for the valence.
 
 #include <Eigen/Core>
 #include <array>

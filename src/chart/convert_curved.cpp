@@ -67,25 +67,29 @@ class Collector {
 
 }  // namespace
 
-QuadMesh convert_curved(const Patch& patch, const Options& options) {
+SurfaceWork convert_curved(const Patch& patch, const Options& options) {
   const std::vector<CurvedRegion> regions = curved_regions(patch, options.crease_angle);
   std::vector<SurfaceMesh> results(regions.size());
-  std::vector<ConversionStats> stats(regions.size());
+  std::vector<ConversionReport> reports(regions.size());
   const parallel::SharedProgress shared(options.progress, double(patch.triangles.size()));
-  std::vector<parallel::Progress> progress;
+  std::vector<ProgressCallback> progress;
   for (const CurvedRegion& region : regions) progress.push_back(shared.part(double(region.region.triangles.size())));
   parallel::for_each_index(regions.size(), [&](std::size_t r) {
+    if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    results[r] = convert_region(regions[r], own, stats[r]);
+    results[r] = convert_region(regions[r], own, reports[r]);
   });
-  QuadMesh mesh = Collector(patch).put_together(regions, results);
+  shared.finish();
+  SurfaceWork work;
+  work.conversion.mesh = Collector(patch).put_together(regions, results);
+  ConversionReport& report = work.conversion.report;
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    mesh.stats.add(stats[r]);
-    ++mesh.stats.regions;
-    mesh.stats.odd_regions += regions[r].region.boundary_sides % 2;
+    report.add(reports[r]);
+    ++report.regions;
+    report.odd_regions += regions[r].region.boundary_sides % 2;
   }
-  return mesh;
+  return work;
 }
 
 }  // namespace qmorph::chart

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include "engine/surface.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph::chart {
 
 /// convert() of a patch that is not planar.
-QuadMesh convert_curved(const Patch& patch, const Options& options);
+SurfaceWork convert_curved(const Patch& patch, const Options& options);
 
 }  // namespace qmorph::chart

@@ -74,9 +74,9 @@ bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {
 
 class CurvedConverter {
  public:
-  CurvedConverter(const CurvedRegion& region, const Options& options, ConversionStats& stats)
-      : region_(region), options_(options), stats_(stats), mesh_(region.start()) {
-    options_.measure_stages = options_.record_film = false;
+  CurvedConverter(const CurvedRegion& region, const Options& options, ConversionReport& report)
+      : region_(region), options_(options), report_(report), mesh_(region.start()) {
+    options_.observer = nullptr;
     options_.part_triangles = 0;
     creases_ = region.creases;
   }
@@ -109,19 +109,20 @@ class CurvedConverter {
   void work_on_parts() {
     const std::size_t parts = division_.parts.size();
     std::vector<Reworked> results(parts);
-    std::vector<ConversionStats> stats(parts);
+    std::vector<ConversionReport> reports(parts);
     const parallel::SharedProgress shared(options_.progress, double(mesh_.faces.size()));
-    std::vector<parallel::Progress> progress;
+    std::vector<ProgressCallback> progress;
     for (const auto& part : division_.parts) progress.push_back(shared.part(double(part.size())));
     parallel::for_each_index(parts, [&](std::size_t p) {
       const auto& [piece, chart] = *division_.laid_out[p];
       Options own = options_;
       own.progress = progress[p];
       results[p].piece = &piece;
-      results[p].mesh = qmorph::convert_region(piece.region(chart.flat()), plane_of(chart), own, stats[p], nullptr);
+      Record nothing;
+      results[p].mesh = qmorph::convert_region(piece.region(chart.flat()), plane_of(chart), own, reports[p], nothing);
       results[p].lifted = lift(results[p].mesh, piece, chart, background());
     });
-    for (const ConversionStats& some : stats) stats_.add(some);
+    for (const ConversionReport& some : reports) report_.add(some);
     mesh_ = replace(mesh_, results);
   }
 
@@ -150,8 +151,9 @@ class CurvedConverter {
     const std::size_t bad = count_bad(work.mesh);
     std::vector<Index> nodes(piece.points.size());
     std::iota(nodes.begin(), nodes.end(), 0);
-    ConversionStats nothing;
-    Pipeline pipeline(options_, nothing, nullptr, work.mesh);
+    ConversionReport nothing;
+    Record no_record;
+    Pipeline pipeline(options_, nothing, no_record, work.mesh);
     pipeline.clean_near(work.mesh, nodes);
     pipeline.polish(work.mesh);
     if (count_bad(work.mesh) > bad || folds_onto_itself(work.mesh, piece)) return {};
@@ -161,7 +163,7 @@ class CurvedConverter {
 
   const CurvedRegion& region_;
   Options options_;
-  ConversionStats& stats_;
+  ConversionReport& report_;
   SurfaceMesh mesh_;
   std::vector<Index> opposite_;
   std::vector<Edge> creases_, interface_;
@@ -170,8 +172,8 @@ class CurvedConverter {
 
 }  // namespace
 
-SurfaceMesh convert_region(const CurvedRegion& region, const Options& options, ConversionStats& stats) {
-  return CurvedConverter(region, options, stats).run();
+SurfaceMesh convert_region(const CurvedRegion& region, const Options& options, ConversionReport& report) {
+  return CurvedConverter(region, options, report).run();
 }
 
 }  // namespace qmorph::chart

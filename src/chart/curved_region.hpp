@@ -6,7 +6,7 @@
 
 #include "chart/surface_mesh.hpp"
 #include "qmorph/options.hpp"
-#include "qmorph/stats.hpp"
+#include "qmorph/report.hpp"
 
 namespace qmorph::chart {
 
@@ -28,6 +28,6 @@ std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle
 
 /// Quads of a region. Vertices of the region keep their numbers.
 /// \throws SurfaceError
-SurfaceMesh convert_region(const CurvedRegion& region, const Options& options, ConversionStats& stats);
+SurfaceMesh convert_region(const CurvedRegion& region, const Options& options, ConversionReport& report);
 
 }  // namespace qmorph::chart

@@ -8,16 +8,16 @@
 namespace qmorph::cli {
 
 enum class GmshOption {
-  kPassed,   ///< Gmsh's own code takes it, with its values
-  kNothing,  ///< has no effect in Gmsh's batch mode either, or what it asks for is what this program does
-  kRefused,  ///< asks for something else
+  passed,   ///< Gmsh's own code takes it, with its values
+  nothing,  ///< has no effect in Gmsh's batch mode either, or what it asks for is what this program does
+  refused,  ///< asks for something else
 };
 
 struct GmshOptionRow {
   std::string_view name;  ///< without dash
   int values;             ///< words that follow; -1: a number that says how many, after a name
   GmshOption kind;
-  std::string_view note;  ///< kPassed: what the values are ("positive", "number", "algorithm", "text"); kRefused: why
+  std::string_view note;  ///< passed: what the values are ("positive", "number", "algorithm", "text"); refused: why
 };
 
 /// \return null if the gmsh program has no such option

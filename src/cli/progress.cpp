@@ -18,18 +18,19 @@ std::string progress_line(std::string_view stage, double share, double seconds_s
   return line;
 }
 
-Progress::~Progress() {
+ProgressBar::~ProgressBar() {
   if (width_ > 0) terminal_ << '\r' << std::string(width_, ' ') << '\r' << std::flush;
 }
 
-void Progress::operator()(std::string_view stage, double share) {
+Progress ProgressBar::operator()(std::string_view stage, double share) {
   const Clock::time_point now = Clock::now();
-  if (now < next_) return;
+  if (now < next_) return Progress::go_on;
   next_ = now + std::chrono::milliseconds(250);
   const std::string line = progress_line(stage, share, std::chrono::duration<double>(now - start_).count());
   width_ = std::max(width_, line.size());
   // Back to the start of the line at once: whatever comes next writes over it.
   terminal_ << line << std::string(width_ - line.size(), ' ') << '\r' << std::flush;
+  return Progress::go_on;
 }
 
 }  // namespace qmorph::cli

@@ -6,20 +6,22 @@
 #include <string>
 #include <string_view>
 
+#include "qmorph/options.hpp"
+
 namespace qmorph::cli {
 
 /// "  [#######             ]  35 %  cleanup, 12 s left". Without the time while nothing is done yet.
 std::string progress_line(std::string_view stage, double share, double seconds_so_far);
 
 /// For `Options::progress`. Quiet in the first second: most runs are over by then. Wipes its line when it goes.
-class Progress {
+class ProgressBar {
  public:
-  explicit Progress(std::ostream& terminal) : terminal_(terminal) {}
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressBar(std::ostream& terminal) : terminal_(terminal) {}
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void operator()(std::string_view stage, double share);
+  Progress operator()(std::string_view stage, double share);
 
  private:
   using Clock = std::chrono::steady_clock;

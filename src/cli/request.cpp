@@ -133,8 +133,8 @@ double msh_version(const std::string& text) {
 }
 
 void note_gmsh_option(const GmshOptionRow& row, const std::vector<std::string>& values, Request& request) {
-  if (row.kind == GmshOption::kRefused) throw UsageError(fmt::format("-{}: not here; {}", row.name, row.note));
-  if (row.kind == GmshOption::kNothing) return;
+  if (row.kind == GmshOption::refused) throw UsageError(fmt::format("-{}: not here; {}", row.name, row.note));
+  if (row.kind == GmshOption::nothing) return;
   check_gmsh_values(row, values);
   request.gmsh_arguments.push_back(fmt::format("-{}", row.name));
   request.gmsh_arguments.insert(request.gmsh_arguments.end(), values.begin(), values.end());

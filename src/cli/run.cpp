@@ -103,8 +103,8 @@ adapter::OutputPlan check_places(const Request& request) {
 }
 
 int status_of(const ModelReport& model) {
-  if (model.count(SurfaceOutcome::kLeft)) return kConvertedInPart;
-  return model.count(SurfaceOutcome::kConverted) ? kAllConverted : kNothingToConvert;
+  if (model.count(SurfaceOutcome::left)) return converted_in_part;
+  return model.count(SurfaceOutcome::converted) ? all_converted : nothing_to_convert;
 }
 
 /// Nothing has changed: the output is to be the input, byte for byte.
@@ -112,7 +112,7 @@ bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const
                   const ModelReport& model) {
   const bool same_format = opened.msh.version != 0 && plan.format.is_msh && plan.format.msh_version == 0 &&
                            !request.msh_version && !request.binary && request.merged.empty() && !request.views;
-  const bool untouched = model.count(SurfaceOutcome::kConverted) == 0 && request.dimension != 3 &&
+  const bool untouched = model.count(SurfaceOutcome::converted) == 0 && request.dimension != 3 &&
                          !request.drop_volumes && !request.order_chosen && request.partitions == 0;
   return same_format && untouched;
 }
@@ -148,11 +148,11 @@ bool write(const Request& request, const adapter::OutputPlan& plan, const adapte
 void print_outcome(const ModelReport& model, const std::string& output, std::ostream& err) {
   std::string left;
   for (const SurfaceReport& surface : model.surfaces)
-    if (surface.outcome == SurfaceOutcome::kLeft) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
+    if (surface.outcome == SurfaceOutcome::left) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
   if (!left.empty())
-    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::kLeft),
+    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::left),
                        model.surfaces.size(), left);
-  else if (model.count(SurfaceOutcome::kConverted) == 0)
+  else if (model.count(SurfaceOutcome::converted) == 0)
     err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has the mesh as it was\n";
 }
 
@@ -255,19 +255,21 @@ int check_file(const Request& request, std::ostream& out, std::ostream& err) {
     const StdoutAsStderr redirected;
     const adapter::Session session(request.gmsh_arguments);
     adapter::open_model(request.input, {request.merged, {}, true, request.ignore_periodicity});
-    model = measure(request.surfaces);
+    model = session::measure_surfaces(request.surfaces);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', out);
   const std::vector<std::string> reasons = find_reasons(model, request.thresholds);
   for (const std::string& reason : reasons) err << "qmorph: " << reason << '\n';
-  return reasons.empty() ? kAllConverted : kNotGoodEnough;
+  return reasons.empty() ? all_converted : not_good_enough;
 }
 
 int convert_file(const Request& request, const std::vector<std::string>& arguments, std::ostream& err) {
   const Clock::time_point start = Clock::now();
   Options options = engine_options(request);
-  set_what_to_keep(request, options);
+  const report::Wishes wishes = what_to_keep(request);
+  report::Recorder recorder(wishes);
+  if (wishes.any()) options.observer = &recorder;
   const adapter::OutputPlan plan = check_places(request);
   const StdoutAsStderr redirected;
   adapter::Session session(request.gmsh_arguments);
@@ -275,18 +277,18 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
   adapter::OpenedModel opened = open(request, err);
 
   const bool watched = request.verbosity >= 1 && &err == &std::cerr && ::isatty(STDERR_FILENO);
-  std::optional<Progress> bar;
+  std::optional<ProgressBar> bar;
   if (watched) options.progress = std::ref(bar.emplace(err));
   const report::Scene before = request.report.empty() ? report::Scene{} : read_scene();
   std::optional<EvenReport> even;
-  if (request.all_quad) even = make_even(request.surfaces, request.keep_curves);
-  const ModelReport model =
-      request.cleanup_only ? improve_quads(request.surfaces, options) : recombine(request.surfaces, options);
+  if (request.all_quad) even = session::make_even(request.surfaces, request.keep_curves);
+  const ModelReport model = request.cleanup_only ? session::improve_quads(options, request.surfaces)
+                                                 : session::recombine(options, request.surfaces);
   bar.reset();
   if (model.surfaces.empty()) {
     err << "qmorph: nothing to convert: " << (request.from_stdin ? "standard input" : request.input)
         << " has no surface with elements\n";
-    return kNothingToConvert;
+    return nothing_to_convert;
   }
 
   const std::vector<std::string> bent = finish_model(request, opened, session);
@@ -298,14 +300,14 @@ int convert_file(const Request& request, const std::vector<std::string>& argumen
     for (const std::string& lost : adapter::describe_unwritten(plan, opened, wish)) err << "warning: " << lost << '\n';
   adapter::StagedFile file = adapter::stage(plan);
   const bool written = write(request, plan, opened, model, file);
-  const int status = bent.empty() ? status_of(model) : kConvertedInPart;
+  const int status = bent.empty() ? status_of(model) : converted_in_part;
   report::RunFacts facts{request.from_stdin ? "-" : request.input, request.to_stdout ? "-" : plan.path, arguments,
                          status, even};
   facts.open_seconds = opened.open_seconds;
   facts.mesh_seconds = opened.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
-  std::vector<SideFile> others = make_side_files(request, before, model, facts);
+  std::vector<SideFile> others = make_side_files(request, before, model, recorder, facts);
   if (request.views) {
     std::vector<SideFile> views = write_views(request, opened, plan.path, file);
     if (request.to_stdout && !views.empty())
@@ -343,7 +345,7 @@ int run_with_streams(Request request, const std::vector<std::string>& arguments,
 }
 
 int fail(int status, std::string_view what, std::ostream& err) {
-  err << "qmorph: " << what << (status == kBadUsage ? " (see qmorph --help)" : "") << '\n';
+  err << "qmorph: " << what << (status == bad_usage ? " (see qmorph --help)" : "") << '\n';
   return status;
 }
 
@@ -354,25 +356,25 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
   const Request request = parse(arguments);
   if (request.help) answer(help_text(), out);
   if (request.version) answer(fmt::format("qmorph {}\n", kVersion), out);
-  if (request.help || request.version) return kAllConverted;
+  if (request.help || request.version) return all_converted;
   return run_with_streams(request, arguments, out, err);
 } catch (const ReaderError& error) {
-  for (const std::string& complaint : error.complaints) fail(kNotGoodEnough, complaint, err);
-  return kNotGoodEnough;
+  for (const std::string& complaint : error.complaints) fail(not_good_enough, complaint, err);
+  return not_good_enough;
 } catch (const UsageError& error) {
-  return fail(kBadUsage, error.what(), err);
+  return fail(bad_usage, error.what(), err);
 } catch (const OutputError& error) {
-  return fail(kCannotWrite, error.what(), err);
+  return fail(cannot_write, error.what(), err);
 } catch (const Error& error) {
-  return fail(kBadInput, error.what(), err);
+  return fail(bad_input, error.what(), err);
 } catch (const std::bad_alloc&) {
-  return fail(kBadInput, "not enough memory", err);
+  return fail(bad_input, "not enough memory", err);
 } catch (const std::exception& error) {
-  return fail(kBadInput, fmt::format("a mistake of qmorph: {}", error.what()), err);
+  return fail(bad_input, fmt::format("a mistake of qmorph: {}", error.what()), err);
 } catch (const std::string& error) {  // Gmsh before 4.10
-  return fail(kBadInput, fmt::format("Gmsh: {}", error), err);
+  return fail(bad_input, fmt::format("Gmsh: {}", error), err);
 } catch (...) {
-  return fail(kBadInput, "a mistake of qmorph", err);
+  return fail(bad_input, "a mistake of qmorph", err);
 }
 
 }  // namespace qmorph::cli

@@ -9,13 +9,13 @@ namespace qmorph::cli {
 
 /// Part of the command's contract: scripts depend on these numbers.
 enum ExitStatus : int {
-  kAllConverted = 0,
-  kBadUsage = 1,
-  kBadInput = 2,
-  kConvertedInPart = 3,
-  kNothingToConvert = 4,
-  kCannotWrite = 5,
-  kNotGoodEnough = 6,
+  all_converted = 0,
+  bad_usage = 1,
+  bad_input = 2,
+  converted_in_part = 3,
+  nothing_to_convert = 4,
+  cannot_write = 5,
+  not_good_enough = 6,
 };
 
 /// Runs the command. Answers to --help, --version and --check go to `out`, and the mesh if that is asked for;

@@ -39,10 +39,10 @@ report::PictureColour wanted_colour(const Request& request) {
 }
 
 void add_pictures(const Request& request, const report::Scene& after, const ModelReport& model,
-                  std::vector<SideFile>& files) {
+                  const report::Recorder& recorder, std::vector<SideFile>& files) {
   const std::optional<Stage> stage = wanted_stage(request);
   const report::Drawing drawing =
-      report::draw(stage ? report::at_stage(after, model, *stage) : after, wanted_colour(request));
+      report::draw(stage ? report::at_stage(after, model, recorder, *stage) : after, wanted_colour(request));
   if (!request.svg.empty()) files.push_back({request.svg, report::to_svg(drawing)});
   if (!request.pdf.empty()) files.push_back({request.pdf, report::to_pdf(drawing)});
   if (!request.tikz.empty()) files.push_back({request.tikz, report::to_tikz(drawing)});
@@ -60,22 +60,25 @@ std::vector<std::pair<std::string, std::string>> side_files(const Request& reque
   return files;
 }
 
-void set_what_to_keep(const Request& request, Options& options) {
-  options.keep_stages = request.wants_picture() && wanted_stage(request).has_value();
+report::Wishes what_to_keep(const Request& request) {
+  report::Wishes wishes;
+  wishes.meshes = request.wants_picture() && wanted_stage(request).has_value();
   wanted_colour(request);
-  options.measure_stages = !request.stats.empty() || !request.report.empty() || options.keep_stages;
-  options.record_film = !request.film.empty();
+  wishes.figures = !request.stats.empty() || !request.report.empty() || wishes.meshes;
+  wishes.films = !request.film.empty();
+  return wishes;
 }
 
 std::vector<SideFile> make_side_files(const Request& request, const report::Scene& before, const ModelReport& model,
-                                      const report::RunFacts& facts) {
+                                      const report::Recorder& recorder, const report::RunFacts& facts) {
   std::vector<SideFile> files;
-  if (!request.stats.empty()) files.push_back({request.stats, report::stats_json(model, facts)});
-  if (!request.film.empty()) files.push_back({request.film, report::film_page(model, facts)});
+  if (!request.stats.empty()) files.push_back({request.stats, report::stats_json(model, recorder, facts)});
+  if (!request.film.empty()) files.push_back({request.film, report::film_page(model, recorder, facts)});
   if (request.report.empty() && !request.wants_picture()) return files;
   const report::Scene after = read_scene();
-  if (!request.report.empty()) files.push_back({request.report, report::report_page(before, after, model, facts)});
-  if (request.wants_picture()) add_pictures(request, after, model, files);
+  if (!request.report.empty())
+    files.push_back({request.report, report::report_page(before, after, model, recorder, facts)});
+  if (request.wants_picture()) add_pictures(request, after, model, recorder, files);
   return files;
 }
 

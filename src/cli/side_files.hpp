@@ -9,6 +9,7 @@
 #include "gmsh/read/open.hpp"
 #include "gmsh/write/staged_file.hpp"
 #include "qmorph/gmsh.hpp"
+#include "report/recorder.hpp"
 #include "report/scene.hpp"
 #include "report/stats.hpp"
 
@@ -17,8 +18,8 @@ namespace qmorph::cli {
 /// Those that are asked for: the option and the path.
 std::vector<std::pair<std::string, std::string>> side_files(const Request& request);
 
-/// Sets what the engine has to keep for them. \throws UsageError for a stage or a colour that there is not
-void set_what_to_keep(const Request& request, Options& options);
+/// What has to be recorded for them. \throws UsageError for a stage or a colour that there is not
+report::Wishes what_to_keep(const Request& request);
 
 /// A file besides the mesh, and what is to stand in it.
 struct SideFile {
@@ -27,7 +28,7 @@ struct SideFile {
 
 /// All of them but views. `before` is the model before it was changed, if a report is asked for.
 std::vector<SideFile> make_side_files(const Request& request, const report::Scene& before, const ModelReport& model,
-                                      const report::RunFacts& facts);
+                                      const report::Recorder& recorder, const report::RunFacts& facts);
 
 /// Appends the figures to the mesh where its format has a place for them; else returns the .pos file beside `output`.
 /// \param mesh written, not committed

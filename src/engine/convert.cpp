@@ -9,22 +9,22 @@
 namespace qmorph {
 namespace {
 
-QuadMesh convert_patch(const Patch& patch, const Options& options) {
+SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
-  if (patch.triangles.empty()) return Collector(patch, {}, {}).finish();
+  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
   const std::optional<Plane> plane = find_plane(patch);
   if (!plane) return chart::convert_curved(patch, options);
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   return work_on_regions(surface, options,
-                         [&](std::size_t r, const Options& own, ConversionStats& stats, Snapshots* snapshots) {
-                           return convert_region(surface.regions[r], surface.plane, own, stats, snapshots);
+                         [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
+                           return convert_region(surface.regions[r], surface.plane, own, report, record);
                          });
 }
 
 }  // namespace
 
-QuadMesh convert(const Patch& patch, const Options& options) { return work_on_patch(patch, options, convert_patch); }
+Conversion convert(const Patch& patch, const Options& options) { return work_on_patch(patch, options, convert_patch); }
 
 std::vector<Outcome> convert_all(const std::vector<const Patch*>& patches, const Options& options) {
   return work_on_patches(patches, options, convert_patch);

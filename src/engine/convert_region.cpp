@@ -1,6 +1,7 @@
 #include "engine/convert_region.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
@@ -15,9 +16,9 @@ namespace {
 /// What the stages made of a region.
 struct Attempt {
   kernel::Mesh mesh;
-  ConversionStats stats;
-  Snapshots snapshots;
-  std::string fault;
+  ConversionReport report{};
+  Record record{};
+  std::optional<SurfaceError> fault{};
 };
 
 /// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1 and 2.2.
@@ -86,22 +87,25 @@ bool is_small(const Region& region, const Options& options) {
 
 class RegionConverter {
  public:
-  RegionConverter(const Region& region, const Plane& plane, const Options& options, const ConversionStats& before)
-      : region_(region), plane_(plane), options_(options), is_small_(is_small(region, options)), before_(before) {
+  RegionConverter(const Region& region, const Plane& plane, const Options& options)
+      : region_(region), plane_(plane), options_(options), is_small_(is_small(region, options)) {
     start();
   }
 
   Attempt run() {
-    std::string fault = find_needles(start_, plane_);
-    if (fault.empty()) {
+    std::optional<SurfaceError> fault = find_needles(start_, plane_);
+    if (!fault) {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
-      Attempt first = attempt(options_, true);
-      if (first.fault.empty()) return best_of_variants(std::move(first));
+      const std::size_t size = count_faces(start_, 3);  // fans may have been refined
+      const bool may_try_again = size <= 2 * options_.retry_triangles;
+      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, true);
+      if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
       fault = first.fault;
+      if (!may_try_again) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
-    Attempt paired = attempt(options_, false);
-    if (!paired.fault.empty()) throw SurfaceError(fault);
+    Attempt paired = attempt(std::move(start_), options_, false);
+    if (paired.fault) throw *fault;
     return paired;
   }
 
@@ -110,22 +114,21 @@ class RegionConverter {
   void start() {
     start_ = kernel::Mesh(region_.points, region_.triangles, region_.open);
     for (Index v : region_.fixed) start_.set_fixed(v);
-    if (options_.measure_stages) input_ = start_;
+    if (wants_stages(options_)) input_ = start_;
     repair_input(start_, plane_);
     grade_fans(start_);
   }
 
   Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
 
-  Attempt best_of_variants(Attempt best) {
+  /// `size`: triangles that the front begins with.
+  Attempt best_of_variants(Attempt best, std::size_t size) {
     // Under the lower bound it is the boundary that is poor, and no try changes that.
     constexpr double kGood = 2.05, kHopeless = 0.1;
     constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
-    const std::size_t size = count_faces(start_, 3);   // fans may have been refined
     std::size_t triangles = size;
     // A poor quad is worth some tries in a region that is not so small, too.
     constexpr std::size_t kTries = 6;
-    if (size > 2 * options_.retry_triangles) return best;
     Worth worth = judge(best.mesh);
     if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
     const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
@@ -136,30 +139,30 @@ class RegionConverter {
       triangles += size;
       if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
       if (edits > kEditsPerTriangle * most) break;
-      Attempt other = attempt(options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
+      Attempt other = attempt(start_, options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       edits += other.mesh.edits();
       const Worth others = judge(other.mesh);
-      if (!other.fault.empty() || others.sum() <= worth.sum()) continue;
+      if (other.fault || others.sum() <= worth.sum()) continue;
       best = std::move(other);
       worth = others;
     }
     return best;
   }
 
-  Attempt attempt(const Options& options, bool with_front, std::size_t most_faces = std::size_t(-1)) {
-    Attempt result{start_, before_, {}, {}};
+  Attempt attempt(kernel::Mesh mesh, const Options& options, bool with_front,
+                  std::size_t most_faces = std::size_t(-1)) {
+    Attempt result{std::move(mesh)};
     Options final = options;
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
-    Pipeline pipeline(final, result.stats, options.measure_stages ? &result.snapshots : nullptr, input_);
-    if (with_front)
-      if (const auto film = pipeline.advance_front(result.mesh)) result.stats.films.push_back(in_space(film, plane_));
+    Pipeline pipeline(final, result.report, result.record, input_);
+    if (with_front) pipeline.advance_front(result.mesh, plane_);
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
-      result.fault = "too many elements";
+      result.fault = SurfaceError("too many elements");
       return result;
     }
     pipeline.finish(result.mesh);
     if (is_small_) raise_corners(result.mesh, options.smoothing);
-    if (is_small_ && options.measure_stages) result.snapshots[std::size_t(Stage::repair)] = result.mesh;
+    if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
     return result;
   }
@@ -167,12 +170,11 @@ class RegionConverter {
   /// Nothing if the region is not large, or has no valid result in parts.
   std::optional<Attempt> attempt_in_parts() {
     if (!is_large(region_.triangles.size(), options_)) return {};
-    Attempt result{{}, before_, {}, {}};
-    auto mesh = convert_in_parts(std::move(start_), input_, plane_, options_, result.stats,
-                                 options_.measure_stages ? &result.snapshots : nullptr);
+    Attempt result;
+    auto mesh = convert_in_parts(std::move(start_), input_, plane_, options_, result.report, result.record);
     if (mesh) {
       result.mesh = std::move(*mesh);
-      if (find_fault(result.mesh, region_, plane_).empty()) return result;
+      if (!find_fault(result.mesh, region_, plane_)) return result;
     }
     start();
     return {};
@@ -195,24 +197,22 @@ class RegionConverter {
   const Plane& plane_;
   const Options& options_;
   const bool is_small_;  ///< so that a second try is allowed
-  const ConversionStats& before_;
-  kernel::Mesh start_;  ///< what the front begins with
-  kernel::Mesh input_;  ///< as it came, if stages are measured
+  kernel::Mesh start_;   ///< what the front begins with
+  kernel::Mesh input_;   ///< as it came, if stages are measured
 };
 
 /// The same with an ear set aside: the one triangle that an odd boundary leaves.
-std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
-                                           const ConversionStats& before) {
+std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options) {
   if (region.boundary_sides % 2 == 0 || !is_small(region, options)) return {};
   const std::optional<Ear> ear = sharpest_ear(region);
   if (!ear) return {};
   try {
     const Region rest = cut_off(region, *ear);
-    Attempt result = RegionConverter(rest, plane, options, before).run();
+    Attempt result = RegionConverter(rest, plane, options).run();
     put_back(result.mesh, *ear);
-    ++result.stats.leftover_triangles;  // the front leaves the ear, too
-    for (auto& snapshot : result.snapshots)
-      if (snapshot) put_back(*snapshot, *ear);
+    ++result.report.leftover_triangles;  // the front leaves the ear, too
+    for (auto& stage : result.record.stages)
+      if (stage) put_back(*stage, *ear);
     return result;
   } catch (const SurfaceError&) {
     return {};
@@ -221,14 +221,14 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
 
 }  // namespace
 
-kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionStats& stats,
-                            Snapshots* snapshots) {
-  Attempt best = RegionConverter(region, plane, options, stats).run();
+kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionReport& report,
+                            Record& record) {
+  Attempt best = RegionConverter(region, plane, options).run();
   const std::size_t size = region.triangles.size();
-  if (auto other = convert_without_ear(region, plane, options, stats))
+  if (auto other = convert_without_ear(region, plane, options))
     if (worth_of(other->mesh, size).sum() > worth_of(best.mesh, size).sum()) best = std::move(*other);
-  stats = std::move(best.stats);
-  if (snapshots) *snapshots = std::move(best.snapshots);
+  report = best.report;
+  record = std::move(best.record);
   return std::move(best.mesh);
 }
 

@@ -5,15 +5,15 @@
 #include "engine/regions.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
-#include "qmorph/stats.hpp"
+#include "qmorph/report.hpp"
 
 namespace qmorph {
 
 /// All stages on one region. In a small region a single decision of the front decides how good the result is, and nobody can tell
 /// which: if the result is poor, other constants of the front are tried as well (`Options::retry_triangles`), and
-/// the best result is taken. `snapshots` may be null.
+/// the best result is taken.
 /// \throws SurfaceError if no valid result was found
-kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionStats& stats,
-                            Snapshots* snapshots);
+kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionReport& report,
+                            Record& record);
 
 }  // namespace qmorph

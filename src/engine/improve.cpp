@@ -1,6 +1,10 @@
+#include <optional>
+#include <utility>
+
 #include "engine/collector.hpp"
 #include "engine/mixed.hpp"
 #include "engine/overlap.hpp"
+#include "engine/pipeline.hpp"
 #include "engine/prepare.hpp"
 #include "engine/surface.hpp"
 #include "qmorph/convert.hpp"
@@ -22,24 +26,25 @@ Start make_start(const Region& region, std::size_t triangles, const Plane& plane
   return start;
 }
 
-kernel::Mesh improve_region(const Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            ConversionStats& stats, Snapshots* snapshots) {
-  Pipeline pipeline(options, stats, snapshots, input);
-  kernel::Mesh mesh = start.mesh;
+/// Uses up `start`.
+kernel::Mesh improve_region(Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
+                            ConversionReport& report, Record& record) {
+  Pipeline pipeline(options, report, record, input);
+  kernel::Mesh mesh = std::move(start.mesh);
   pipeline.finish(mesh);
-  const std::string fault = find_fault(mesh, start.region, plane);
-  if (fault.empty()) return mesh;
+  const std::optional<SurfaceError> fault = find_fault(mesh, start.region, plane);
+  if (!fault) return mesh;
 
   // What quads leave no room for may be possible without them.
   kernel::Mesh triangles(start.region.points, start.region.triangles, start.region.open);
   for (Index v : start.region.fixed) triangles.set_fixed(v);
-  pipeline.advance_front(triangles);
+  pipeline.advance_front(triangles, plane);
   pipeline.finish(triangles);
-  if (!find_fault(triangles, start.region, plane).empty()) throw SurfaceError(fault);
+  if (find_fault(triangles, start.region, plane)) throw *fault;
   return triangles;
 }
 
-QuadMesh improve_patch(const Patch& patch, const Options& options) {
+SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
@@ -55,15 +60,15 @@ QuadMesh improve_patch(const Patch& patch, const Options& options) {
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options, [&](std::size_t r, const Options& own, ConversionStats& stats, Snapshots* snapshots) {
-        const kernel::Mesh input = snapshots ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
-        return improve_region(starts[r], input, surface.plane, own, stats, snapshots);
+      surface, options, [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
+        const kernel::Mesh input = wants_stages(own) ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
+        return improve_region(starts[r], input, surface.plane, own, report, record);
       });
 }
 
 }  // namespace
 
-QuadMesh improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
+Conversion improve(const Patch& patch, const Options& options) { return work_on_patch(patch, options, improve_patch); }
 
 std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options) {
   return work_on_patches(patches, options, improve_patch);

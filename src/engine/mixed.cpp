@@ -208,8 +208,9 @@ void mend_quads(Mesh& mesh, const SmoothingOptions& smoothing, const Plane& plan
     if (is_bad(mesh, f) && (mesh.is_quad(f) || mesh.smallest_sine(f) < -kDegenerateSine))
       throw SurfaceError(
           "the element " + corners_of(mesh, plane, f) +
-          " is turned over, and no place was found for its nodes where it is not; mesh the surface anew or "
-          "repair it");
+              " is turned over, and no place was found for its nodes where it is not; mesh the surface anew or "
+              "repair it",
+          {.kind = ErrorKind::bad_element, .place = corner_of(mesh, plane, f)});
 }
 
 }  // namespace qmorph

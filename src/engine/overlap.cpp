@@ -32,7 +32,8 @@ void require_single_cover(const Region& region, const Plane& plane) {
       if (!holds_x_axis(region.points[t[(i + 1) % 3]] - p, region.points[t[(i + 2) % 3]] - p)) continue;
       if (++covers[t[i]] > 1)
         throw SurfaceError("the triangles around the node at " + describe(plane.to_space(p)) +
-                           " overlap; mesh the surface anew or repair it");
+                               " overlap; mesh the surface anew or repair it",
+                           {.kind = ErrorKind::overlap, .place = plane.to_space(p)});
     }
 }
 
@@ -56,7 +57,8 @@ void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane
     for (const Segment& t : active)
       if (s.low() <= t.high() && t.low() <= s.high() && cross_properly(s, t))
         throw SurfaceError("boundary or constraint edges cross near " + describe(plane.to_space(s.a)) +
-                           ", so triangles overlap; mesh the surface anew or repair it");
+                               ", so triangles overlap; mesh the surface anew or repair it",
+                           {.kind = ErrorKind::overlap, .place = plane.to_space(s.a)});
     active.push_back(s);
   }
 }
@@ -66,14 +68,16 @@ void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane
 void require_sound(const Patch& patch) {
   const auto require_node = [&](Index v) {
     if (v >= patch.points.size())
-      throw SurfaceError("an element uses node " + std::to_string(v) + " of " + std::to_string(patch.points.size()));
+      throw SurfaceError("an element uses node " + std::to_string(v) + " of " + std::to_string(patch.points.size()),
+                         {.kind = ErrorKind::bad_element, .subject = node_row(v)});
   };
   const auto require_element = [&](const auto& nodes) {
     for (Index v : nodes) require_node(v);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (nodes[i] == nodes[(i + 1) % nodes.size()])
-        throw SurfaceError("an element uses the node at " + describe(patch.points[nodes[i]]) +
-                           " twice; remove or collapse it");
+        throw SurfaceError(
+            "an element uses the node at " + describe(patch.points[nodes[i]]) + " twice; remove or collapse it",
+            {.kind = ErrorKind::bad_element, .place = patch.points[nodes[i]], .subject = node_row(nodes[i])});
   };
   for (const auto& t : patch.triangles) require_element(t);
   for (const auto& q : patch.quads) require_element(q);

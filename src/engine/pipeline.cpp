@@ -1,6 +1,8 @@
 #include "engine/pipeline.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "cleanup/clean_up.hpp"
 #include "cleanup/patterns/pattern_cleanup.hpp"
@@ -24,39 +26,37 @@ constexpr bool kChecksAlways = false;
 
 using Clock = std::chrono::steady_clock;
 
-Pipeline::Pipeline(const Options& options, ConversionStats& stats, Snapshots* snapshots, const kernel::Mesh& start)
-    : options_(options), stats_(stats), snapshots_(snapshots), start_(Clock::now()) {
-  if (options.measure_stages && stats_.stages.empty())
-    for (std::size_t i = 0; i < kStages; ++i) stats_.stages.push_back({Stage(i), 0, {}, {}});
+Pipeline::Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start)
+    : options_(options), report_(report), record_(record), keeps_stages_(wants_stages(options)), start_(Clock::now()) {
   double nothing = 0;
   end_stage(Stage::input, start, nothing);
 }
 
 void Pipeline::progress(std::string_view stage, double share) const {
-  if (options_.progress) options_.progress(stage, share);
+  if (options_.progress && options_.progress(stage, share) == Progress::cancel) throw Cancelled();
 }
 
 void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds) {
   const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
   seconds += passed;
-  if (snapshots_) {
-    (*snapshots_)[std::size_t(stage)] = mesh;
-    stats_.stages[std::size_t(stage)].seconds += passed;
+  if (keeps_stages_) {
+    record_.stages[std::size_t(stage)] = mesh;
+    record_.seconds[std::size_t(stage)] += passed;
   }
   start_ = Clock::now();
 }
 
-std::shared_ptr<Film> Pipeline::advance_front(kernel::Mesh& mesh) {
+void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
-  std::optional<front::FilmRecorder> recorder;
-  if (options_.record_film) recorder.emplace(mesh, options_.front.corner_angle);
-  front::morph(
-      mesh, options_.front, options_.check_each_step, [&](double share) { progress("front", 0.5 * share); },
-      recorder ? &*recorder : nullptr);
-  stats_.front_quads += count_faces(mesh, 4);
-  stats_.leftover_triangles += count_faces(mesh, 3);
-  end_stage(Stage::front, mesh, stats_.front_seconds);
-  return recorder ? recorder->finish() : nullptr;
+  front::MorphSettings settings;
+  settings.check_each_step = options_.check_each_step;
+  settings.progress = [&](double share) { progress("front", 0.5 * share); };
+  settings.observer = options_.observer;
+  settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
+  if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
+  report_.front_quads += count_faces(mesh, 4);
+  report_.leftover_triangles += count_faces(mesh, 3);
+  end_stage(Stage::front, mesh, report_.front_seconds);
 }
 
 void Pipeline::finish(kernel::Mesh& mesh) {
@@ -67,18 +67,18 @@ void Pipeline::finish(kernel::Mesh& mesh) {
 void Pipeline::clean(kernel::Mesh& mesh) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving);
-  end_stage(Stage::elimination, mesh, stats_.elimination_seconds);
+  end_stage(Stage::elimination, mesh, report_.elimination_seconds);
   progress("smoothing", 0.5);
   SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
   rough.iterations = std::min(rough.iterations, 2);
   smoothing::smooth(mesh, rough);
-  end_stage(Stage::smoothing, mesh, stats_.smoothing_seconds);
+  end_stage(Stage::smoothing, mesh, report_.smoothing_seconds);
   progress("cleanup", 0.55);
   cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing);
   cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing);
   cleanup::clean_up(mesh, options_.smoothing);
   cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing);
-  end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
+  end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
   progress("cleanup", 0.75);
 }
 
@@ -102,13 +102,13 @@ void Pipeline::clean_near(kernel::Mesh& mesh, const std::vector<Index>& interfac
   std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
   smoothing::smooth_near(mesh, options_.smoothing, nodes, 0);
   cleanup::clean_up_near(mesh, options_.smoothing, nodes);
-  end_stage(Stage::cleanup, mesh, stats_.cleanup_seconds);
+  end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
 }
 
 void Pipeline::polish(kernel::Mesh& mesh) {
   progress("smoothing", 0.8);
   smoothing::smooth(mesh, options_.smoothing);
-  end_stage(Stage::final_smoothing, mesh, stats_.smoothing_seconds);
+  end_stage(Stage::final_smoothing, mesh, report_.smoothing_seconds);
   cleanup::repair(mesh, options_.smoothing);
   cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing);
   cleanup::replace_poor_cavities(mesh, options_.smoothing);
@@ -122,14 +122,7 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
     smoothing::raise_worst_corners(mesh, options_.smoothing);
   progress("smoothing", 1);
-  end_stage(Stage::repair, mesh, stats_.cleanup_seconds);
-}
-
-std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film, const Plane& plane) {
-  for (Eigen::Vector3d* axis : {&film->axis_u, &film->axis_v})
-    *axis = axis->x() * plane.axis_u + axis->y() * plane.axis_v;
-  film->origin = plane.on_plane(film->origin.head<2>());
-  return film;
+  end_stage(Stage::repair, mesh, report_.cleanup_seconds);
 }
 
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {
@@ -138,15 +131,18 @@ std::size_t count_faces(const kernel::Mesh& mesh, Index degree) {
   return count;
 }
 
-std::string find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane) {
+std::optional<SurfaceError> find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane) {
   std::size_t triangles = 0;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f)) continue;
-    const auto where = [&] { return describe(plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f))))); };
-    if (!mesh.is_valid_face(f))
-      return "no valid element was found at " + where() + "; refine the triangles or the boundary there";
+    const auto error_at = [&](const char* what, const char* why) {
+      const Eigen::Vector3d place = plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f))));
+      return SurfaceError(what + describe(place) + why + "; refine the triangles or the boundary there",
+                          {.kind = ErrorKind::no_valid_mesh, .place = place});
+    };
+    if (!mesh.is_valid_face(f)) return error_at("no valid element was found at ", "");
     if (mesh.degree(f) == 3 && ++triangles > region.boundary_sides % 2)
-      return "the triangle at " + where() + " could not be removed; refine the triangles or the boundary there";
+      return error_at("the triangle at ", " could not be removed");
   }
   return {};
 }

@@ -1,30 +1,26 @@
 #pragma once
 /// The stages, one after another, on one region.
 
-#include <array>
 #include <chrono>
-#include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 
+#include "engine/record.hpp"
 #include "engine/regions.hpp"
 #include "kernel/mesh.hpp"
+#include "qmorph/error.hpp"
 #include "qmorph/options.hpp"
-#include "qmorph/stats.hpp"
+#include "qmorph/report.hpp"
 
 namespace qmorph {
 
-/// What a region looked like after each stage.
-using Snapshots = std::array<std::optional<kernel::Mesh>, kStages>;
-
 class Pipeline {
  public:
-  /// `start` is the region before all stages; `snapshots` may be null, and then nothing is copied.
-  Pipeline(const Options& options, ConversionStats& stats, Snapshots* snapshots, const kernel::Mesh& start);
+  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it.
+  Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start);
 
-  /// Triangles to quads, as far as the front comes. \return how, in the plane, if `Options::record_film`; else null
-  std::shared_ptr<Film> advance_front(kernel::Mesh& mesh);
+  /// Triangles to quads, as far as the front comes. `plane` is for the observer. \throws Cancelled, as all stages do
+  void advance_front(kernel::Mesh& mesh, const Plane& plane);
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 
@@ -42,18 +38,15 @@ class Pipeline {
   void end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds);
 
   const Options& options_;
-  ConversionStats& stats_;
-  Snapshots* snapshots_;
+  ConversionReport& report_;
+  Record& record_;
+  const bool keeps_stages_;
   std::chrono::steady_clock::time_point start_;
 };
 
-/// A film of the plane, turned into where the plane lies.
-std::shared_ptr<const Film> in_space(const std::shared_ptr<Film>& film, const Plane& plane);
-
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree);
 
-/// What contradicts invariants I4 and I5, in words; empty if nothing does. The stages keep them step by step;
-/// this is the last word.
-std::string find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane);
+/// What contradicts invariants I4 and I5; nothing if nothing does. The stages keep them step by step; this is the last word.
+std::optional<SurfaceError> find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane);
 
 }  // namespace qmorph

@@ -1,7 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "engine/regions.hpp"
 #include "qmorph/error.hpp"
@@ -18,8 +17,9 @@ using Eigen::Vector3d;
 void require_finite(const Patch& patch) {
   for (std::size_t i = 0; i < patch.points.size(); ++i)
     if (!patch.points[i].allFinite())
-      throw SurfaceError("node " + std::to_string(i) + " has the coordinates " + describe(patch.points[i]) +
-                         "; repair the input");
+      throw SurfaceError(
+          "node " + std::to_string(i) + " has the coordinates " + describe(patch.points[i]) + "; repair the input",
+          {.kind = ErrorKind::not_finite, .subject = node_row(i)});
 }
 
 /// Of the triangles: the box around them, twice their area as a vector, and without its direction.
@@ -62,20 +62,14 @@ Plane axes_for(const Vector3d& normal) {
 
 }  // namespace
 
-std::string describe(const Vector3d& p) {
-  std::ostringstream text;
-  text.precision(6);
-  text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
-  return text.str();
-}
-
 std::optional<Plane> find_plane(const Patch& patch) {
   require_finite(patch);
   const Extent extent = extent_of(patch);
   const double size = (extent.high - extent.low).norm();
   Vector3d normal = extent.area;
   if (!(extent.length > 0))
-    throw SurfaceError("its triangles have no area, near " + describe(extent.low) + "; the surface is degenerate");
+    throw SurfaceError("its triangles have no area, near " + describe(extent.low) + "; the surface is degenerate",
+                       {.kind = ErrorKind::no_area, .place = extent.low});
   if (!(normal.norm() > 0)) return {};
   // Noise out of the plane must not tilt a coordinate plane.
   for (int i = 0; i < 3; ++i)

@@ -45,6 +45,10 @@ std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
   return text;
 }
 
+Eigen::Vector3d corner_of(const Mesh& mesh, const Plane& plane, Index f) {
+  return plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f))));
+}
+
 void repair_input(Mesh& mesh, const Plane& plane) {
   std::vector<Index> flat;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
@@ -53,16 +57,18 @@ void repair_input(Mesh& mesh, const Plane& plane) {
     if (orientation(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])) < 0 &&
         mesh.smallest_sine(f) < -kDegenerateSine)
       throw SurfaceError("the triangle " + corners_of(mesh, plane, f) +
-                         " is turned over, so triangles overlap; mesh the surface anew or repair it");
+                             " is turned over, so triangles overlap; mesh the surface anew or repair it",
+                         {.kind = ErrorKind::overlap, .place = corner_of(mesh, plane, f)});
     flat.push_back(f);
   }
   for (Index f : flat)
     if (!mesh.is_valid_face(f) && !swap_away(mesh, f) && !move_away(mesh, f))
-      throw SurfaceError("the triangle " + corners_of(mesh, plane, f) +
-                         " has no area and its nodes are fixed; remove or collapse it");
+      throw SurfaceError(
+          "the triangle " + corners_of(mesh, plane, f) + " has no area and its nodes are fixed; remove or collapse it",
+          {.kind = ErrorKind::bad_element, .place = corner_of(mesh, plane, f)});
 }
 
-std::string find_needles(const Mesh& mesh, const Plane& plane) {
+std::optional<SurfaceError> find_needles(const Mesh& mesh, const Plane& plane) {
   constexpr std::size_t kFew = 20;
   constexpr double kShare = 0.3;
   std::size_t faces = 0, thin = 0;
@@ -74,9 +80,10 @@ std::string find_needles(const Mesh& mesh, const Plane& plane) {
     if (++thin == 1) first = f;
   }
   if (thin <= kFew || double(thin) <= kShare * double(faces)) return {};
-  return "no valid quads were found where " + std::to_string(thin) + " of " + std::to_string(faces) +
-         " triangles are more than a million times longer than high, the first at " + corners_of(mesh, plane, first) +
-         "; mesh the surface anew";
+  return SurfaceError("no valid quads were found where " + std::to_string(thin) + " of " + std::to_string(faces) +
+                          " triangles are more than a million times longer than high, the first at " +
+                          corners_of(mesh, plane, first) + "; mesh the surface anew",
+                      {.kind = ErrorKind::no_valid_mesh, .place = corner_of(mesh, plane, first)});
 }
 
 }  // namespace qmorph

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "kernel/mesh.hpp"
+#include "qmorph/error.hpp"
 
 namespace qmorph {
 
@@ -14,9 +16,12 @@ void repair_input(kernel::Mesh& mesh, const Plane& plane);
 
 /// A complaint, if a large share of the triangles is thinner than an element may be (`kStraightSine`). A few of these
 /// can be turned into better ones, and rectangles may be as thin as they like, but a front has no room there.
-std::string find_needles(const kernel::Mesh& mesh, const Plane& plane);
+std::optional<SurfaceError> find_needles(const kernel::Mesh& mesh, const Plane& plane);
 
 /// "(x, y, z), (x, y, z), ...", the corners of a face, for messages.
 std::string corners_of(const kernel::Mesh& mesh, const Plane& plane, Index f);
+
+/// The first corner of a face, for errors.
+Eigen::Vector3d corner_of(const kernel::Mesh& mesh, const Plane& plane, Index f);
 
 }  // namespace qmorph

@@ -74,9 +74,10 @@ class Sides {
       return;
     }
     if (node_[other] == a || opposite_[other] != kNone)
-      throw SurfaceError("two triangles lie on the same side of the edge from " + describe(patch.points[row_[a]]) +
-                         " to " + describe(patch.points[row_[b]]) +
-                         "; remove overlapping triangles or orient them alike");
+      throw SurfaceError(
+          "two triangles lie on the same side of the edge from " + describe(patch.points[row_[a]]) + " to " +
+              describe(patch.points[row_[b]]) + "; remove overlapping triangles or orient them alike",
+          {.kind = ErrorKind::not_manifold, .place = patch.points[row_[a]], .subject = node_row(row_[a])});
     opposite_[c] = other;
     opposite_[other] = c;
   }

@@ -4,10 +4,11 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "geometry/describe.hpp"
 #include "geometry/vec2.hpp"
+#include "qmorph/error.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -24,6 +25,9 @@ struct Plane {
   Eigen::Vector3d to_space(const Vec2& p) const { return curved ? curved(p) : on_plane(p); }
   Eigen::Vector3d on_plane(const Vec2& p) const { return origin + p.x() * axis_u + p.y() * axis_v; }
 };
+
+/// For errors about a node of a patch.
+inline ErrorSubject node_row(std::size_t row) { return {ErrorSubject::Kind::node, row}; }
 
 /// Plane of the patch, if it is planar. Throws SurfaceError if a coordinate is not finite or no triangle has an area.
 std::optional<Plane> find_plane(const Patch& patch);
@@ -44,8 +48,5 @@ struct Region {
 /// The regions' triangles follow one another along a Z-curve.
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
-
-/// "(x, y, z)" for messages.
-std::string describe(const Eigen::Vector3d& p);
 
 }  // namespace qmorph

@@ -1,6 +1,7 @@
 #include "engine/surface.hpp"
 
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "engine/collector.hpp"
@@ -11,17 +12,29 @@
 namespace qmorph {
 namespace {
 
-/// The figures of one stage: the regions as they were then, put together.
-void measure_stage(const Surface& surface, const std::vector<Snapshots>& regions, StageFigures& figures, bool keep) {
+/// The surface as it was after a stage, or after the last one before it that was run.
+QuadMesh at_stage(const Surface& surface, const std::vector<Record>& regions, std::size_t stage) {
   Collector collector(surface.patch, surface.plane, surface.plane_points);
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    std::size_t last = std::size_t(figures.stage);
-    while (!regions[r][last]) --last;  // the input is always there
-    collector.add(surface.regions[r], *regions[r][last]);
+    std::size_t last = stage;
+    while (!regions[r].stages[last]) --last;  // the input is always there
+    collector.add(surface.regions[r], *regions[r].stages[last]);
   }
-  QuadMesh mesh = collector.finish();
-  figures.quality.add(mesh.points, mesh.triangles, mesh.quads, surface.plane.normal());
-  if (keep) figures.meshes.push_back(std::make_shared<const QuadMesh>(std::move(mesh)));
+  return collector.finish();
+}
+
+SurfaceRecord record_of(const Surface& surface, const Options& options, std::vector<Record>& regions,
+                        const QuadMesh& result) {
+  SurfaceRecord record;
+  for (Record& region : regions) {
+    for (std::size_t i = 0; i < kStages; ++i) record.seconds[i] += region.seconds[i];
+    for (auto& front : region.fronts) record.fronts.push_back(std::move(front));
+  }
+  if (!wants_stages(options)) return record;
+  record.normal = surface.plane.normal();
+  for (std::size_t i = 0; i < kStages; ++i) record.stages.push_back(at_stage(surface, regions, i));
+  record.size_ratios = size_ratios(surface.patch, result);
+  return record;
 }
 
 }  // namespace
@@ -32,44 +45,40 @@ Surface::Surface(const Patch& surface, const Plane& its_plane) : patch(surface),
   regions = cut_into_regions(patch, plane_points);
 }
 
-QuadMesh work_on_regions(const Surface& surface, const Options& options, const Work& work) {
-  /// What one region becomes.
-  struct Part {
-    kernel::Mesh mesh;
-    ConversionStats stats;
-    Snapshots snapshots;
-  };
-  std::vector<Part> parts(surface.regions.size());
-  std::vector<parallel::Progress> progress;
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work) {
+  std::vector<kernel::Mesh> meshes(surface.regions.size());
+  std::vector<ConversionReport> reports(meshes.size());
+  std::vector<Record> records(meshes.size());
+  std::vector<ProgressCallback> progress;
   const parallel::SharedProgress shared(options.progress, double(surface.patch.triangles.size()));
   for (const Region& region : surface.regions) progress.push_back(shared.part(double(region.triangles.size())));
-  parallel::for_each_index(parts.size(), [&](std::size_t r) {
+  parallel::for_each_index(meshes.size(), [&](std::size_t r) {
+    if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    parts[r].mesh = work(r, own, parts[r].stats, options.measure_stages ? &parts[r].snapshots : nullptr);
+    meshes[r] = work(r, own, reports[r], records[r]);
   });
+  shared.finish();
 
-  ConversionStats stats;
+  SurfaceWork result;
+  ConversionReport& report = result.conversion.report;
   Collector collector(surface.patch, surface.plane, surface.plane_points);
-  std::vector<Snapshots> snapshots;
-  for (std::size_t r = 0; r < parts.size(); ++r) {
-    stats.add(parts[r].stats);
-    ++stats.regions;
-    stats.odd_regions += surface.regions[r].boundary_sides % 2;
-    collector.add(surface.regions[r], parts[r].mesh);
-    snapshots.push_back(std::move(parts[r].snapshots));
+  for (std::size_t r = 0; r < meshes.size(); ++r) {
+    report.add(reports[r]);
+    ++report.regions;
+    report.odd_regions += surface.regions[r].boundary_sides % 2;
+    collector.add(surface.regions[r], meshes[r]);
   }
-  QuadMesh mesh = collector.finish();
-  for (StageFigures& figures : stats.stages) measure_stage(surface, snapshots, figures, options.keep_stages);
-  if (options.measure_stages) stats.size_ratios = size_ratios(surface.patch, mesh);
-  mesh.stats = std::move(stats);
-  return mesh;
+  result.conversion.mesh = collector.finish();
+  if (options.observer) result.record = record_of(surface, options, records, result.conversion.mesh);
+  return result;
 }
 
-QuadMesh work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
-  QuadMesh mesh;
-  parallel::with_threads(options.threads, [&] { mesh = work(patch, options); });
-  return mesh;
+Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
+  SurfaceWork result;
+  parallel::with_threads(options.threads, [&] { result = work(patch, options); });
+  if (options.observer) result.record.tell(*options.observer, 0);
+  return std::move(result.conversion);
 }
 
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
@@ -79,22 +88,30 @@ std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, c
   double total = 0;
   for (const Patch* patch : patches) total += weight(*patch);
   const parallel::SharedProgress shared(options.progress, total);
-  std::vector<parallel::Progress> progress;
+  std::vector<ProgressCallback> progress;
   for (const Patch* patch : patches) progress.push_back(shared.part(weight(*patch)));
 
   std::vector<Outcome> outcomes(patches.size());
+  std::vector<SurfaceRecord> records(patches.size());
   const auto work_on = [&](std::size_t i) {
+    if (shared.is_over()) return;
     const Clock::time_point start = Clock::now();
     Options own = options;
     own.progress = progress[i];
+    std::optional<NumberedObserver> numbered;
+    if (options.observer) own.observer = &numbered.emplace(*options.observer, i);
     try {
-      outcomes[i].mesh = work(*patches[i], own);
+      SurfaceWork result = work(*patches[i], own);
+      outcomes[i].conversion = std::move(result.conversion);
+      records[i] = std::move(result.record);
     } catch (const SurfaceError& error) {
-      outcomes[i].reason = error.what();
+      outcomes[i].error = error;
     }
     outcomes[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
   };
   parallel::with_threads(options.threads, [&] { parallel::for_each_index(patches.size(), work_on); });
+  shared.finish();
+  for (std::size_t i = 0; options.observer && i < patches.size(); ++i) records[i].tell(*options.observer, i);
   return outcomes;
 }
 

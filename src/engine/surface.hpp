@@ -5,8 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "engine/pipeline.hpp"
+#include "engine/record.hpp"
 #include "engine/regions.hpp"
+#include "kernel/mesh.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
@@ -24,19 +25,25 @@ struct Surface {
   std::vector<Region> regions;
 };
 
-/// Makes the region of this number into quads, with options whose `progress` counts for the region. `snapshots` may be null.
-using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, ConversionStats& stats,
-                                        Snapshots* snapshots)>;
+/// What a surface has become, and what its observer is told in the end.
+struct SurfaceWork {
+  Conversion conversion;
+  SurfaceRecord record;
+};
 
-/// Works on all regions, side by side, and puts the results together, with the figures of each stage if
-/// `Options::measure_stages`.
-QuadMesh work_on_regions(const Surface& surface, const Options& options, const Work& work);
+/// Makes the region of this number into quads, with options whose `progress` counts for the region.
+using Work =
+    std::function<kernel::Mesh(std::size_t region, const Options& options, ConversionReport& report, Record& record)>;
+
+/// Works on all regions, side by side, and puts the results together, as they were after each stage, too, if the
+/// observer wants that.
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work);
 
 /// Makes a patch into quads.
-using PatchWork = std::function<QuadMesh(const Patch& patch, const Options& options)>;
+using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options)>;
 
 /// `work` on one patch, on the threads that the options allow.
-QuadMesh work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);
+Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);
 
 /// `work` on each patch, side by side.
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "front/mark_set.hpp"
@@ -20,43 +21,50 @@ constexpr int kMostRounds = 8;
 
 class Morph {
  public:
-  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check, FilmRecorder* recorder)
+  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check)
       : mesh_(mesh),
         front_(mesh, options),
         colours_(mesh, front_),
         step_{mesh, front_, colours_, options, {}, {}},
         options_(options),
-        check_(check),
-        recorder_(recorder) {}
-
-  MorphCounts run(const std::function<void(double)>& progress) {
+        check_(check) {
     start();
+  }
+
+  /// Before run().
+  void watch(Observer& observer, const FlatFrame& frame) {
+    reporter_.emplace(mesh_, front_, states_, options_.corner_angle, observer, frame);
+    if (!reporter_->is_watched()) reporter_.reset();
+  }
+
+  std::unique_ptr<FrontObserver> run(const std::function<void(double)>& progress) {
+    advance_all(progress);
+    return reporter_ ? reporter_->finish() : nullptr;
+  }
+
+ private:
+  void advance_all(const std::function<void(double)>& progress) {
     const std::size_t quads_expected = mesh_.face_slots() / 2 + 1;
     const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
     for (int round = 0; round < kMostRounds; ++round) {
-      const std::size_t made_before = made();
+      const std::size_t made_before = made_;
       for (Base base; (base = next_base()).h != kNone;) {
-        if (++steps_ > most_steps) return counts_;
-        if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made()) / double(quads_expected)));
+        if (++steps_ > most_steps) return;
+        if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made_) / double(quads_expected)));
         if (!advance(base)) set_aside(base.h);
         if (check_) check();
       }
-      if (made() == made_before) break;
+      if (made_ == made_before) break;
       for (Index h : aside_)
         if (mesh_.is_live_half_edge(h) && front_.contains(h)) enter(h, front_.state(h));
       aside_.clear();
     }
-    return counts_;
   }
-
- private:
-  std::size_t made() const { return counts_.quads + counts_.seams + counts_.transition_seams + counts_.small_loops; }
 
   /// Thesis 3.5.3: not selectable until something around the edge has changed.
   void set_aside(Index h) {
     is_aside_.set(h, true);
     aside_.push_back(h);
-    ++counts_.set_aside;
   }
   void enter(Index h, State state, bool forced = false) {
     is_aside_.set(h, false);
@@ -106,15 +114,13 @@ class Morph {
     if (!forced && (special_case(base, base.before, base.h) || special_case(base, base.h, base.after))) return true;
     if (!forced && refine(base.h)) return true;
     if (const SmallLoop loop = find_small_loop(step_, base); loop.size != 0)
-      if (attempt(FilmStep::small_loop, [&] { return close_small_loop(step_, loop); }))
-        return ++counts_.small_loops, true;
-    if (attempt(FilmStep::quad, [&] { return make_quad(base); })) return ++counts_.quads, true;
-    return false;
+      if (attempt(StepKind::small_loop, [&] { return close_small_loop(step_, loop); })) return true;
+    return attempt(StepKind::quad, [&] { return make_quad(base); });
   }
 
   /// Runs a step in a transaction and brings the front up to date if it succeeded.
   template <class Operation>
-  bool attempt(FilmStep kind, const Operation& operation) {
+  bool attempt(StepKind kind, const Operation& operation) {
     begin();
     step_.moved.clear();
     step_.notes = {};
@@ -124,9 +130,10 @@ class Morph {
       return false;
     }
     commit();
+    made_ += kind != StepKind::transition_split && kind != StepKind::refinement;
     for (const auto& [a, b] : joins_) join(a, b);
-    if (recorder_) recorder_->record(kind, base_origin_, base_target_, step_.notes, front_);
     reclassify();
+    if (reporter_) reporter_->report({kind, base_origin_, base_target_, step_.notes, edges_});
     return true;
   }
 
@@ -184,21 +191,15 @@ class Morph {
     const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
     if (front_.is_angle_below(in, out, std::max(options_.seam_angle, options_.seam_angle_many)) &&
         front_.is_angle_below(in, out, seam_angle(mesh_.target(in)))) {
-      if (transition) {
-        if (attempt(FilmStep::transition_seam, [&] { return transition_seam(step_, in, out); }))
-          return ++counts_.transition_seams, true;
-      } else if (attempt(FilmStep::seam, [&] { return seam(step_, in, out); })) {
-        return ++counts_.seams, true;
-      }
-      return false;
+      if (transition) return attempt(StepKind::transition_seam, [&] { return transition_seam(step_, in, out); });
+      return attempt(StepKind::seam, [&] { return seam(step_, in, out); });
     }
     if (!transition || base.state.corners() == 2) return false;
-    return split(FilmStep::transition_split, l1 > l2 ? in : out, mesh_.target(in));
+    return split(StepKind::transition_split, l1 > l2 ? in : out, mesh_.target(in));
   }
 
-  bool split(FilmStep kind, Index longer, Index k) {
-    return attempt(kind, [&] { return (forced_ = transition_split(step_, longer, k)) != kNone; }) &&
-           (++counts_.transition_splits, true);
+  bool split(StepKind kind, Index longer, Index k) {
+    return attempt(kind, [&] { return (forced_ = transition_split(step_, longer, k)) != kNone; });
   }
 
   /// Where the input gets finer than the front, the front has to follow, whatever its neighbours' lengths.
@@ -206,7 +207,7 @@ class Morph {
     const Index apex = mesh_.target(mesh_.next(base)), from = mesh_.origin(base), to = mesh_.target(base);
     const double size = std::min({step_.size[from], step_.size[to], step_.size[apex]});
     if (mesh_.length(base) < kTooLong * size) return false;
-    return split(FilmStep::refinement, base, step_.size[from] < step_.size[to] ? from : to);
+    return split(StepKind::refinement, base, step_.size[from] < step_.size[to] ? from : to);
   }
 
   double seam_angle(Index v) const {
@@ -284,8 +285,8 @@ class Morph {
   Step step_;
   FrontOptions options_;
   bool check_;
-  MorphCounts counts_;
   std::size_t steps_ = 0;
+  std::size_t made_ = 0;  ///< steps that were no splits
   LoggedColumn<bool> is_aside_;
   std::vector<Index> aside_;
   std::vector<State> states_;  ///< of front edges, by half-edge, as they were last looked at
@@ -293,15 +294,16 @@ class Morph {
   std::vector<Index> edges_;  ///< to enter anew
   std::vector<std::pair<Index, Index>> joins_;
   Index forced_ = kNone;
-  FilmRecorder* recorder_;  ///< or null
+  std::optional<StepReporter> reporter_;  ///< if anybody watches
   Index base_origin_ = kNone, base_target_ = kNone;
 };
 
 }  // namespace
 
-MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step,
-                  const std::function<void(double)>& progress, FilmRecorder* recorder) {
-  return Morph(mesh, options, check_each_step, recorder).run(progress);
+std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options, const MorphSettings& settings) {
+  Morph morph(mesh, options, settings.check_each_step);
+  if (settings.observer) morph.watch(*settings.observer, settings.frame);
+  return morph.run(settings.progress);
 }
 
 }  // namespace qmorph::front

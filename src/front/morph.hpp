@@ -2,23 +2,25 @@
 /// The advancing front as a whole. Thesis chapter 2, [Owen99].
 
 #include <functional>
+#include <memory>
 
-#include "front/film_recorder.hpp"
 #include "kernel/mesh.hpp"
+#include "qmorph/observer.hpp"
 #include "qmorph/options.hpp"
 
 namespace qmorph::front {
 
-/// How often each step was taken.
-struct MorphCounts {
-  std::size_t quads = 0, seams = 0, transition_seams = 0, transition_splits = 0, small_loops = 0;
-  std::size_t set_aside = 0;
+struct MorphSettings {
+  bool check_each_step = false;
+  std::function<void(double)> progress{};  ///< called now and then with the share of triangles done; may be empty
+  Observer* observer = nullptr;            ///< is asked who wants to see the steps; may be null
+  FlatFrame frame{};                       ///< for the observer: where the mesh lies in the model
 };
 
 /// Turns triangles into quads from the boundary inwards. Every element of the mesh is valid before and after;
 /// triangles that no step can take are left for triangle elimination. Linear but for the queue.
-/// `progress` is called now and then with the share of triangles done; `recorder`, which may be null, sees every step.
-MorphCounts morph(kernel::Mesh& mesh, const FrontOptions& options, bool check_each_step = false,
-                  const std::function<void(double)>& progress = {}, FilmRecorder* recorder = nullptr);
+/// \return who has watched, or null
+std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options,
+                                     const MorphSettings& settings = {});
 
 }  // namespace qmorph::front

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "front/film_recorder.hpp"
 #include "front/front.hpp"
 #include "front/loop_colours.hpp"
 #include "front/mark_set.hpp"
+#include "front/step_reporter.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -35,7 +35,7 @@ struct Step {
   std::vector<Spoke> spokes{};
   MarkSet marked{};
 
-  StepNotes notes{};  ///< for the film
+  StepNotes notes{};  ///< for those who watch
 };
 
 // --- side edges: side_edge.cpp ----------------------------------------------------------------------------

@@ -13,8 +13,6 @@ namespace qmorph {
 /// [Shewchuk97], then an exact sum of the six products.
 int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
-inline bool is_ccw(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation(a, b, c) > 0; }
-
 /// A corner whose sine is not above this is straight, closed or turned over: an element with such a corner is
 /// not valid. Far above the rounding of coordinates that were turned into their plane, far below what a
 /// solver notices.

@@ -1,21 +1,25 @@
 #pragma once
 /// One bar for several parts that are worked on side by side.
 
-#include <functional>
 #include <memory>
-#include <string_view>
+
+#include "qmorph/options.hpp"
 
 namespace qmorph::parallel {
 
-using Progress = std::function<void(std::string_view stage, double share)>;
-
-/// Calls `report`, one call at a time, with the share that all parts together have done. It never falls.
+/// Calls `report`, one call at a time, with the share that all parts together have done. It never falls. When one part is told to
+/// stop, so are all others; what one call has thrown, the others throw.
 class SharedProgress {
  public:
   /// `report` may be empty, and is called as long as one of the parts is. `total` is the sum of all weights.
-  SharedProgress(Progress report, double total);
+  SharedProgress(ProgressCallback report, double total);
   /// For one part of this weight; empty if `report` is.
-  Progress part(double weight) const;
+  ProgressCallback part(double weight) const;
+
+  /// No part need be begun any more.
+  bool is_over() const;
+  /// Throws what the end of all parts is to throw: what `report` has thrown, or Cancelled.
+  void finish() const;
 
  private:
   struct State;

@@ -47,23 +47,6 @@ class Graph {
   std::size_t size() const { return steps_.size(); }
   const std::vector<Step>& steps(Index node) const { return steps_[node]; }
 
-  /// A number for each set of nodes that links join.
-  std::vector<Index> components() const {
-    std::vector<Index> component(size(), kNone);
-    for (Index first = 0; first < size(); ++first) {
-      if (component[first] != kNone) continue;
-      std::vector<Index> open{first};
-      component[first] = first;
-      while (!open.empty()) {
-        const Index node = open.back();
-        open.pop_back();
-        for (const Step& step : steps_[node])
-          if (component[step.to] == kNone) component[step.to] = first, open.push_back(step.to);
-      }
-    }
-    return component;
-  }
-
  private:
   Index node_of(Index region) const { return region == kOutside ? outside_ : region; }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "quality/percentile.hpp"
+#include "quality/sides.hpp"
 
 namespace qmorph {
 namespace {
@@ -16,25 +17,7 @@ constexpr std::size_t kLeaf = 8;
 
 struct Edge {
   Index low, high;
-  auto operator<=>(const Edge&) const = default;
 };
-
-/// All sides of all elements, sorted: an edge with two elements is there twice.
-template <class Mesh>
-std::vector<Edge> sorted_sides(const Mesh& mesh) {
-  std::vector<Edge> sides;
-  sides.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
-  const auto add = [&](const auto& element) {
-    for (std::size_t i = 0; i < element.size(); ++i) {
-      const Index a = element[i], b = element[(i + 1) % element.size()];
-      sides.push_back({std::min(a, b), std::max(a, b)});
-    }
-  };
-  for (const auto& t : mesh.triangles) add(t);
-  for (const auto& q : mesh.quads) add(q);
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
 
 /// Edges by their middles: a balanced k-d tree in an array; the middle of each range is the root of its subtree.
 class EdgeTree {
@@ -113,18 +96,18 @@ class EdgeTree {
 }  // namespace
 
 std::vector<double> size_ratios(const Patch& before, const QuadMesh& after) {
-  std::vector<Edge> edges = sorted_sides(before);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<Edge> edges;
+  for_each_edge(sorted_sides(before.points.size(), before.triangles, before.quads),
+                [&](std::span<const Side> sides) { edges.push_back({sides[0].low, sides[0].high}); });
   std::vector<double> ratios;
   if (edges.empty()) return ratios;
   EdgeTree tree(before.points, edges);
-  const std::vector<Edge> sides = sorted_sides(after);
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    if (sides[i] != sides[i - 1]) continue;
-    const Vector3d &a = after.points[sides[i].low], &b = after.points[sides[i].high];
+  for_each_edge(sorted_sides(after.points.size(), after.triangles, after.quads), [&](std::span<const Side> sides) {
+    if (sides.size() < 2) return;
+    const Vector3d &a = after.points[sides[0].low], &b = after.points[sides[0].high];
     const double nearby = tree.local_length((a + b) / 2);
     if (nearby > 0) ratios.push_back((b - a).norm() / nearby);
-  }
+  });
   return ratios;
 }
 

@@ -73,10 +73,11 @@ void lay_out_in_a_row(std::vector<PlacedFilm>& films) {
   }
 }
 
-std::vector<PlacedFilm> placed_films(const ModelReport& model) {
+std::vector<PlacedFilm> placed_films(const ModelReport& model, const Recorder& recorder) {
   std::vector<PlacedFilm> films;
   for (const SurfaceReport& surface : model.surfaces)
-    for (const auto& film : surface.stats.films) films.push_back({film.get(), surface.tag});
+    if (const History* history = recorder.find(surface))
+      for (const Film& film : history->films) films.push_back({&film, surface.tag});
   if (films.empty()) return films;
   if (!in_one_plane(films)) {
     lay_out_in_a_row(films);
@@ -144,7 +145,7 @@ Json region_json(const PlacedFilm& placed, Blob& blob) {
 
 }  // namespace
 
-std::string film_page(const ModelReport& model, const RunFacts& facts) {
+std::string film_page(const ModelReport& model, const Recorder& recorder, const RunFacts& facts) {
   Blob blob;
   Json json{{"kind", "film"},
             {"version", kVersion},
@@ -152,7 +153,7 @@ std::string film_page(const ModelReport& model, const RunFacts& facts) {
             {"input", facts.input},
             {"output", facts.output}};
   json["regions"] = Json::array();
-  for (const PlacedFilm& film : placed_films(model)) json["regions"].push_back(region_json(film, blob));
+  for (const PlacedFilm& film : placed_films(model, recorder)) json["regions"].push_back(region_json(film, blob));
   return fill_page(kFilmPage, "front of " + file_name(facts.output) + " – qmorph", json, blob);
 }
 

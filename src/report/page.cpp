@@ -110,7 +110,8 @@ Json frame_json(const Frame& frame) {
 
 }  // namespace
 
-std::string report_page(const Scene& before, const Scene& after, const ModelReport& model, const RunFacts& facts) {
+std::string report_page(const Scene& before, const Scene& after, const ModelReport& model, const Recorder& recorder,
+                        const RunFacts& facts) {
   const Frame frame = find_frame(after);
   Blob blob;
   Json json;
@@ -122,7 +123,7 @@ std::string report_page(const Scene& before, const Scene& after, const ModelRepo
   json["figure_steps"] = kFigureSteps;
   json["meshes"]["before"] = scene_json(before, frame, blob);
   json["meshes"]["after"] = scene_json(after, frame, blob);
-  json["stats"] = Json::parse(stats_json(model, facts));
+  json["stats"] = Json::parse(stats_json(model, recorder, facts));
   return fill_page(kReportPage, file_name(facts.output) + " – qmorph", json, blob);
 }
 

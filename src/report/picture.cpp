@@ -186,7 +186,7 @@ std::optional<PictureColour> find_picture_colour(std::string_view name) {
 
 Drawing draw(const Scene& scene, PictureColour colour) { return Picture(scene, colour).run(); }
 
-Scene at_stage(const Scene& after, const ModelReport& model, Stage stage) {
+Scene at_stage(const Scene& after, const ModelReport& model, const Recorder& recorder, Stage stage) {
   Scene scene = after;
   scene.faces.clear();
   scene.face_tags.clear();
@@ -195,18 +195,18 @@ Scene at_stage(const Scene& after, const ModelReport& model, Stage stage) {
     surface.first = scene.faces.size();
     const auto report = std::find_if(model.surfaces.begin(), model.surfaces.end(),
                                      [&](const SurfaceReport& s) { return s.tag == surface.tag; });
-    const bool is_kept = report != model.surfaces.end() && !report->stats.stages.empty() &&
-                         !report->stats.stages[std::size_t(stage)].meshes.empty();
-    if (!is_kept) {
+    const bool is_image = report != model.surfaces.end() && report->image_of != 0;
+    const History* history = report == model.surfaces.end() || is_image ? nullptr : recorder.find(*report);
+    if (!history) {
       scene.faces.insert(scene.faces.end(), after.faces.begin() + std::ptrdiff_t(was.first),
                          after.faces.begin() + std::ptrdiff_t(was.first + was.count));
     } else {
-      for (const auto& mesh : report->stats.stages[std::size_t(stage)].meshes) {
+      for (const QuadMesh& mesh : history->stages[std::size_t(stage)].meshes) {
         const Index offset = Index(scene.points.size());
-        scene.points.insert(scene.points.end(), mesh->points.begin(), mesh->points.end());
-        for (const auto& t : mesh->triangles)
+        scene.points.insert(scene.points.end(), mesh.points.begin(), mesh.points.end());
+        for (const auto& t : mesh.triangles)
           scene.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset, kNone});
-        for (const auto& q : mesh->quads)
+        for (const auto& q : mesh.quads)
           scene.faces.push_back({q[0] + offset, q[1] + offset, q[2] + offset, q[3] + offset});
       }
     }

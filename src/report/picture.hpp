@@ -7,6 +7,7 @@
 
 #include "qmorph/gmsh.hpp"
 #include "report/drawing.hpp"
+#include "report/recorder.hpp"
 #include "report/scene.hpp"
 
 namespace qmorph::report {
@@ -22,8 +23,8 @@ std::optional<PictureColour> find_picture_colour(std::string_view name);
 /// above, without marks. Sizes are coloured by their logarithm between the smallest and the largest.
 Drawing draw(const Scene& scene, PictureColour colour);
 
-/// The scene with its surfaces as they were after a stage. \pre the model was converted with `Options::keep_stages`.
+/// The scene with its surfaces as they were after a stage. \pre the recorder has kept the meshes of the stages.
 /// Surfaces that were not converted, or are images of others that are periodic with them, are as in `after`.
-Scene at_stage(const Scene& after, const ModelReport& model, Stage stage);
+Scene at_stage(const Scene& after, const ModelReport& model, const Recorder& recorder, Stage stage);
 
 }  // namespace qmorph::report

@@ -66,7 +66,7 @@ Json size_json(std::vector<double> ratios) {
   return {{"median", percentile(ratios, 50)}, {"p5", percentile(ratios, 5)}, {"p95", percentile(ratios, 95)}};
 }
 
-Json engine_json(const ConversionStats& s) {
+Json engine_json(const ConversionReport& s, const History& history) {
   return {{"regions", s.regions},
           {"odd_regions", s.odd_regions},
           {"front_quads", s.front_quads},
@@ -76,8 +76,8 @@ Json engine_json(const ConversionStats& s) {
             {"elimination", s.elimination_seconds},
             {"cleanup", s.cleanup_seconds},
             {"smoothing", s.smoothing_seconds}}},
-          {"size_ratio", size_json(s.size_ratios)},
-          {"stages", stages_json(s.stages)}};
+          {"size_ratio", size_json(history.size_ratios)},
+          {"stages", stages_json(history.stages)}};
 }
 
 Json even_json(const EvenReport& even) {
@@ -90,26 +90,26 @@ Json even_json(const EvenReport& even) {
 }
 
 /// Of the surfaces that were converted.
-ConversionStats sum_stats(const ModelReport& model) {
-  ConversionStats sum;
+History sum_of(const ModelReport& model, const Recorder& recorder) {
+  History sum;
   for (const SurfaceReport& surface : model.surfaces)
-    if (surface.outcome == SurfaceOutcome::kConverted) sum.add(surface.stats);
+    if (const History* history = recorder.find(surface)) sum.add_figures(*history);
   return sum;
 }
 
 const char* outcome_name(SurfaceOutcome outcome) {
   switch (outcome) {
-    case SurfaceOutcome::kConverted:
+    case SurfaceOutcome::converted:
       return "converted";
-    case SurfaceOutcome::kAlreadyQuads:
+    case SurfaceOutcome::already_quads:
       return "already quads";
-    case SurfaceOutcome::kLeft:
+    case SurfaceOutcome::left:
       return "left as it was";
   }
   return "";
 }
 
-Json surface_json(const SurfaceReport& s) {
+Json surface_json(const SurfaceReport& s, const Recorder& recorder) {
   Json json;
   json["tag"] = s.tag;
   json["name"] = s.name;
@@ -118,15 +118,18 @@ Json surface_json(const SurfaceReport& s) {
   json["warnings"] = s.warnings;
   json["before"] = {{"triangles", s.triangles_in}, {"quads", s.quads_in}};
   json["after"] = {{"triangles", s.triangles_out}, {"quads", s.quads_out}};
-  if (s.outcome != SurfaceOutcome::kLeft) json["quality"] = quality_json(s.quality);
-  if (s.outcome == SurfaceOutcome::kConverted) json["engine"] = engine_json(s.stats);
+  if (s.outcome != SurfaceOutcome::left) json["quality"] = quality_json(s.quality);
+  if (s.outcome == SurfaceOutcome::converted) {
+    const History* history = recorder.find(s);
+    json["engine"] = engine_json(s.conversion, history ? *history : History());
+  }
   json["seconds"] = s.seconds;
   return json;
 }
 
 }  // namespace
 
-std::string stats_json(const ModelReport& model, const RunFacts& facts) {
+std::string stats_json(const ModelReport& model, const Recorder& recorder, const RunFacts& facts) {
   Json json;
   json["program"] = "qmorph";
   json["version"] = kVersion;
@@ -140,12 +143,12 @@ std::string stats_json(const ModelReport& model, const RunFacts& facts) {
                      {"write", facts.write_seconds}, {"total", facts.total_seconds}};
   json["warnings"] = model.warnings;
   json["total"] = quality_json(model.total);
-  const ConversionStats sum = sum_stats(model);
+  const History sum = sum_of(model, recorder);
   json["size_ratio"] = size_json(sum.size_ratios);
   json["stages"] = stages_json(sum.stages);
   if (facts.even) json["all_quad"] = even_json(*facts.even);
   json["surfaces"] = Json::array();
-  for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface));
+  for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface, recorder));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "qmorph/gmsh.hpp"
+#include "report/recorder.hpp"
 
 namespace qmorph::report {
 
@@ -21,6 +22,6 @@ struct RunFacts {
 
 /// The figures of qmorph/quality.hpp as JSON: for each surface and in total, at the end and after each stage. Keys come
 /// always in the same order; numbers are the shortest that read back as the same.
-std::string stats_json(const ModelReport& model, const RunFacts& facts);
+std::string stats_json(const ModelReport& model, const Recorder& recorder, const RunFacts& facts);
 
 }  // namespace qmorph::report

@@ -1,6 +1,7 @@
 #include "report/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <string>
@@ -32,12 +33,12 @@ std::string surface_line(const SurfaceReport& surface) {
   if (!surface.name.empty()) line += fmt::format(" \"{}\"", surface.name);
   const std::string before = elements(surface.triangles_in, surface.quads_in);
   switch (surface.outcome) {
-    case SurfaceOutcome::kLeft:
+    case SurfaceOutcome::left:
       return line + fmt::format(": {} left as {}: {}", before,
                                 surface.triangles_in + surface.quads_in == 1 ? "it was" : "they were", surface.reason);
-    case SurfaceOutcome::kAlreadyQuads:
+    case SurfaceOutcome::already_quads:
       return line + fmt::format(": {} already; {}", before, figures(surface.quality));
-    case SurfaceOutcome::kConverted:
+    case SurfaceOutcome::converted:
       break;
   }
   return line + fmt::format(": {} -> {}; {}", before, elements(surface.triangles_out, surface.quads_out),

@@ -21,7 +21,7 @@ TEST_CASE("progress: nothing is foretold from next to nothing, and shares out of
 TEST_CASE("progress: a run of less than a second leaves no trace on the terminal") {
   std::ostringstream terminal;
   {
-    Progress progress(terminal);
+    ProgressBar progress(terminal);
     for (int i = 0; i < 10; ++i) progress("front", 0.1 * i);
   }
   CHECK(terminal.str().empty());

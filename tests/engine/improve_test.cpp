@@ -9,6 +9,7 @@
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
 #include "support/rng.hpp"
+#include "support/watcher.hpp"
 
 namespace {
 
@@ -93,7 +94,7 @@ Patch throw_nodes(Patch patch, const Patch& triangles, std::uint64_t seed) {
 
 TEST_CASE("improve: a grid stays what it is") {
   const Patch patch = grid(6, 4);
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.quads.size() == 24);
   CHECK(mesh.points == patch.points);
@@ -105,7 +106,7 @@ TEST_CASE("improve: triangles that were joined at random become quads within the
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;
     const Patch patch = join_at_random(triangles, seed);
-    const QuadMesh mesh = improve(patch);
+    const QuadMesh mesh = improve(patch).mesh;
     const auto complaints = broken_invariants(triangles, mesh);
     if (!complaints.empty()) FAIL_CHECK(complaints.front());
   }
@@ -120,7 +121,7 @@ TEST_CASE(
     if (!triangles.quads.empty()) continue;
     ++domains;
     try {
-      const QuadMesh mesh = improve(throw_nodes(join_at_random(triangles, seed), triangles, seed));
+      const QuadMesh mesh = improve(throw_nodes(join_at_random(triangles, seed), triangles, seed)).mesh;
       const auto complaints = broken_invariants(triangles, mesh);
       if (!complaints.empty()) FAIL_CHECK(complaints.front());
     } catch (const qmorph::SurfaceError& error) {
@@ -143,7 +144,7 @@ TEST_CASE("improve: a pair of triangles far apart meets") {
   };
   cut(40);
   cut(3);
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.quads.size() == 45);
   CHECK(qmorph::measure(mesh).irregular_nodes == 0);
@@ -157,7 +158,7 @@ TEST_CASE("improve: a node that was pulled over its neighbours goes back") {
     patch.points[3 + 4 * 7] = {4.3, 1.5, 0};
   }
   SUBCASE("a chevron") { patch.points[3 + 3 * 7] = {3.8, 3.8, 0}; }
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(grid(6, 6), mesh).empty());
   CHECK(mesh.quads.size() == 36);
   CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.99);
@@ -176,7 +177,7 @@ TEST_CASE("improve: a quad whose corners cannot move is cut and built anew") {
     patch.quads = {{0, 5, 1, 3}};
     patch.triangles = {{0, 3, 4}, {1, 2, 3}};
   }
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.triangles.empty());
 }
@@ -189,7 +190,7 @@ TEST_CASE("improve: nodes with two neighbours go") {
   patch.points.emplace_back(1.6, 1.4, 0);
   patch.quads[5] = {n[0], n[1], n[2], inner};
   patch.quads.push_back({n[0], inner, n[2], n[3]});
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(mesh.quads.size() == 16);
   CHECK(qmorph::measure(mesh).irregular_nodes == 0);
 }
@@ -201,7 +202,7 @@ TEST_CASE("improve: constraints, fixed nodes and odd boundaries are respected") 
   patch.points[4 + 3 * 7] += Eigen::Vector3d(0.3, 0.2, 0);
   patch.quads.pop_back();  // the corner square becomes a triangle
   patch.triangles.push_back({5 + 4 * 7, 6 + 4 * 7, 5 + 5 * 7});
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
   CHECK(mesh.triangles.size() == 1);
 }
@@ -209,7 +210,7 @@ TEST_CASE("improve: constraints, fixed nodes and odd boundaries are respected") 
 TEST_CASE("improve: a constraint along the diagonal of a quad cuts it") {
   Patch patch = grid(3, 3);
   patch.constraints = {{1 + 4, 2 + 2 * 4}};
-  const QuadMesh mesh = improve(patch);
+  const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
 }
 
@@ -227,12 +228,13 @@ TEST_CASE("improve: a fold in the boundary is refused, with its place") {
 }
 
 TEST_CASE("improve: nothing comes of nothing, and the stages are measured as in a conversion") {
-  CHECK(improve(Patch{}).quads.empty());
+  CHECK(improve(Patch{}).mesh.quads.empty());
   qmorph::Options options;
-  options.measure_stages = true;
-  const QuadMesh mesh = improve(grid(3, 2), options);
-  REQUIRE(mesh.stats.stages.size() == qmorph::kStages);
-  CHECK(mesh.stats.stages.front().quality.result().quads == 6);
-  CHECK(mesh.stats.stages.front().quality.result().triangles == 0);
-  CHECK(mesh.stats.stages.back().quality.result().quads == 6);
+  qmorph::test::Watcher watcher;
+  options.observer = &watcher;
+  improve(grid(3, 2), options);
+  REQUIRE(watcher.stages.size() == qmorph::kStages);
+  CHECK(watcher.stages.front().mesh.quads.size() == 6);
+  CHECK(watcher.stages.front().mesh.triangles.empty());
+  CHECK(watcher.stages.back().mesh.quads.size() == 6);
 }

@@ -70,7 +70,7 @@ TEST_CASE("plane: a clockwise patch is seen from below, and its result is clockw
   Patch patch = square(Vector3d::Zero(), kX, kY);
   for (auto& t : patch.triangles) std::swap(t[1], t[2]);
   CHECK(find_plane(patch)->normal() == -kZ);
-  const QuadMesh result = convert(patch);
+  const QuadMesh result = convert(patch).mesh;
   REQUIRE(result.quads.size() >= 1);
   for (const auto& q : result.quads) {
     const Vector3d d1 = result.points[q[2]] - result.points[q[0]], d2 = result.points[q[3]] - result.points[q[1]];
@@ -127,7 +127,7 @@ TEST_CASE("convert refuses a triangle that is turned over, whether its node may 
 TEST_CASE("convert repairs a triangle without area if its node is free to move") {
   Patch patch = square(Vector3d::Zero(), kX, kY);
   patch.points[4] = {1, 0, 0};
-  const QuadMesh result = convert(patch);
+  const QuadMesh result = convert(patch).mesh;
   REQUIRE(result.quads.size() == 1);
   CHECK(result.triangles.empty());
   for (Index v : result.quads[0]) CHECK(result.source[v] < 4);

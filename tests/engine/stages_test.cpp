@@ -1,20 +1,28 @@
-// The figures after each stage.
+// What an observer is told of a conversion as a whole: the surface after each stage, the fronts that led there.
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <stdexcept>
 
 #include "qmorph/convert.hpp"
 #include "qmorph/quality.hpp"
 #include "support/domains.hpp"
-
-using qmorph::Stage;
+#include "support/watcher.hpp"
 
 namespace {
 
-qmorph::QuadMesh convert_measured(const qmorph::Patch& patch) {
-  qmorph::Options options;
-  options.measure_stages = true;
-  return qmorph::convert(patch, options);
+using namespace qmorph;
+using test::random_domain;
+using test::Watcher;
+
+Conversion convert_watched(const Patch& patch, Watcher& watcher) {
+  Options options;
+  options.observer = &watcher;
+  return convert(patch, options);
+}
+
+bool is_same(const QuadMesh& a, const QuadMesh& b) {
+  return a.points == b.points && a.quads == b.quads && a.triangles == b.triangles && a.source == b.source;
 }
 
 }  // namespace
@@ -22,34 +30,94 @@ qmorph::QuadMesh convert_measured(const qmorph::Patch& patch) {
 TEST_CASE("stages: the first is the input and the last is the result") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
-    const qmorph::Patch patch = qmorph::test::random_domain(seed).patch;
-    const qmorph::QuadMesh mesh = convert_measured(patch);
-    REQUIRE(mesh.stats.stages.size() == qmorph::kStages);
-    const qmorph::Quality input = mesh.stats.stages.front().quality.result();
-    CHECK(input.triangles == patch.triangles.size());
-    CHECK(input.quads == patch.quads.size());
-    CHECK(input.triangle_metric_min <= input.triangle_metric_mean);
-    const qmorph::Quality last = mesh.stats.stages.back().quality.result(), result = qmorph::measure(mesh);
-    CHECK(last.quads == result.quads);
-    CHECK(last.triangles == result.triangles);
-    CHECK(last.valence == result.valence);
-    CHECK(last.scaled_jacobian_min == doctest::Approx(result.scaled_jacobian_min));
-    CHECK(last.thesis_mean == doctest::Approx(result.thesis_mean));
+    const Patch patch = random_domain(seed).patch;
+    Watcher watcher;
+    const QuadMesh mesh = convert_watched(patch, watcher).mesh;
+    REQUIRE(watcher.stages.size() == kStages);
+    for (std::size_t i = 0; i < kStages; ++i) CHECK(watcher.stages[i].stage == Stage(i));
+    CHECK(watcher.stages.front().mesh.triangles.size() == patch.triangles.size());
+    CHECK(watcher.stages.front().mesh.quads.size() == patch.quads.size());
+    CHECK(is_same(watcher.stages.back().mesh, mesh));
+    CHECK(watcher.stages.front().size_ratios.empty());
+    CHECK(std::all_of(watcher.stages.back().size_ratios.begin(), watcher.stages.back().size_ratios.end(),
+                      [](double ratio) { return ratio > 0; }));
   }
 }
 
-TEST_CASE("stages: measuring changes no result, and nothing is measured that was not asked for") {
-  const qmorph::Patch patch = qmorph::test::random_domain(3).patch;
-  const qmorph::QuadMesh measured = convert_measured(patch), plain = qmorph::convert(patch);
-  CHECK(plain.stats.stages.empty());
-  CHECK(measured.quads == plain.quads);
-  CHECK(measured.points == plain.points);
+TEST_CASE("stages: watching changes no result") {
+  for (std::uint64_t seed = 20; seed < 26; ++seed) {
+    const Patch patch = random_domain(seed).patch;
+    Watcher watcher;
+    CHECK(is_same(convert_watched(patch, watcher).mesh, convert(patch).mesh));
+  }
 }
 
 TEST_CASE("stages: the front leaves what elimination joins") {
-  const qmorph::QuadMesh mesh = convert_measured(qmorph::test::random_domain(3).patch);
-  const auto after = [&](Stage stage) { return mesh.stats.stages[std::size_t(stage)].quality.result(); };
-  CHECK(after(Stage::front).quads == mesh.stats.front_quads);
-  CHECK(after(Stage::front).triangles == mesh.stats.leftover_triangles);
-  CHECK(after(Stage::elimination).triangles <= mesh.stats.odd_regions);
+  Watcher watcher;
+  const auto [mesh, report] = convert_watched(random_domain(3).patch, watcher);
+  const auto after = [&](Stage stage) { return watcher.stages[std::size_t(stage)].mesh; };
+  CHECK(after(Stage::front).quads.size() == report.front_quads);
+  CHECK(after(Stage::front).triangles.size() == report.leftover_triangles);
+  CHECK(after(Stage::elimination).triangles.size() <= report.odd_regions);
+}
+
+TEST_CASE("stages: of several surfaces each is told of under its number, in order, and of those that failed nothing") {
+  std::vector<Patch> patches;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) patches.push_back(random_domain(seed).patch);
+  patches[2].points[0].x() = std::nan("");
+  std::vector<const Patch*> all;
+  for (const Patch& patch : patches) all.push_back(&patch);
+  Watcher watcher;
+  Options options;
+  options.observer = &watcher;
+  const std::vector<Outcome> outcomes = convert_all(all, options);
+  REQUIRE(watcher.stages.size() == 4 * kStages);
+  std::size_t at = 0;
+  for (std::size_t i : {0, 1, 3, 4})
+    for (std::size_t stage = 0; stage < kStages; ++stage, ++at) CHECK(watcher.stages[at].surface == i);
+  for (const Watcher::FrontNote& front : watcher.fronts) {
+    CHECK(front.surface != 2);
+    CHECK(front.surface == front.player().surface);
+  }
+  for (std::size_t i : {0, 1, 3, 4})
+    CHECK(std::count_if(watcher.fronts.begin(), watcher.fronts.end(), [&](const Watcher::FrontNote& front) {
+            return front.surface == i;
+          }) == int(outcomes[i].conversion->report.regions));
+}
+
+TEST_CASE("stages: fronts of tries that were not taken are not kept") {
+  int started = 0, kept = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Watcher watcher;
+    const Conversion conversion = convert_watched(random_domain(seed).patch, watcher);
+    CHECK(watcher.fronts.size() <= conversion.report.regions);
+    std::size_t quads = 0;
+    for (const Watcher::FrontNote& front : watcher.fronts)
+      for (const auto& face : front.player().faces) quads += face[0] != kNone && face[3] != kNone;
+    CHECK(quads == conversion.report.front_quads);
+    started += watcher.started, kept += int(watcher.fronts.size());
+  }
+  CHECK(kept < started);
+}
+
+TEST_CASE("stages: parts of a large region have a front each") {
+  Watcher watcher;
+  Options options;
+  options.part_triangles = 80;
+  options.observer = &watcher;
+  std::size_t fronts = 0, regions = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) regions += convert(random_domain(seed).patch, options).report.regions;
+  fronts = watcher.fronts.size();
+  CHECK(fronts > regions);
+  for (const Watcher::FrontNote& front : watcher.fronts) CHECK(front.surface == 0);
+}
+
+TEST_CASE("stages: what an observer throws comes out") {
+  struct Thrower : Observer {
+    std::unique_ptr<FrontObserver> front_starts(const FrontStart&) override { throw std::domain_error("enough"); }
+  };
+  Thrower thrower;
+  Options options;
+  options.observer = &thrower;
+  CHECK_THROWS_WITH_AS(convert(random_domain(1).patch, options), "enough", std::domain_error);
 }

@@ -19,7 +19,7 @@ TEST_CASE("morph: a rectangle of n x m cells becomes a grid without irregular no
       CAPTURE(rows);
       Mesh mesh = grid(columns, rows, diagonals);
       const Edges boundary = boundary_of(mesh);
-      front::morph(mesh, {}, true);
+      front::morph(mesh, {}, {.check_each_step = true});
       CHECK(count_quads(mesh) == int(columns * rows));
       CHECK(count_triangles(mesh) == 0);
       CHECK(irregular_nodes(mesh) == 0);
@@ -38,7 +38,7 @@ TEST_CASE("morph: on random meshes with holes every step leaves valid elements; 
     for (Index v = 0; v < mesh.vertex_slots(); ++v)
       if (mesh.is_live_vertex(v) && rng.chance(0.05)) mesh.set_fixed(v), fixed.push_back(v);
     const Mesh before = mesh;
-    front::morph(mesh, {}, true);  // true: throws after the first step that leaves a defect
+    front::morph(mesh, {}, {.check_each_step = true});  // true: throws after the first step that leaves a defect
     REQUIRE(defect(mesh) == "");
     REQUIRE(boundary_of(mesh) == boundary_of(before));
     REQUIRE(area_of(mesh) == doctest::Approx(area_of(before)));
@@ -71,7 +71,7 @@ TEST_CASE("morph: an odd loop leaves an odd number of triangles") {
     }
     outline.emplace_back(0.1, 0);
     Mesh mesh = drawn(outline, fan);
-    front::morph(mesh, {}, true);
+    front::morph(mesh, {}, {.check_each_step = true});
     CHECK(count_triangles(mesh) % 2 == 1);
     CHECK(boundary_of(mesh).size() == n);
     CHECK(defect(mesh) == "");

@@ -1,4 +1,4 @@
-/// --all-quad and make_even(): curves get as few nodes as it takes for all boundaries to be even.
+/// --all-quad and session::make_even(): curves get as few nodes as it takes for all boundaries to be even.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -295,13 +295,13 @@ TEST_CASE("make_even: in a running session, and what makes no sense is refused w
   write_file(directory / "in.geo", two_squares(4));
   ::gmsh::merge(directory / "in.geo");
   ::gmsh::model::mesh::generate(2);
-  CHECK_THROWS_AS(make_even({7}), UsageError);
-  CHECK_THROWS_AS(make_even({}, {99}), UsageError);
-  const EvenReport even = make_even();
+  CHECK_THROWS_AS(session::make_even({7}), UsageError);
+  CHECK_THROWS_AS(session::make_even({}, {99}), UsageError);
+  const EvenReport even = session::make_even();
   CHECK(even.odd_regions == 2);
   CHECK(even.splits.size() == 1);
-  CHECK(make_even().odd_regions == 0);
-  CHECK(recombine().total.triangles == 0);
+  CHECK(session::make_even().odd_regions == 0);
+  CHECK(session::recombine().total.triangles == 0);
 }
 
 TEST_CASE("--all-quad: words that go with it") {

@@ -38,16 +38,16 @@ TEST_CASE("improve_quads: Gmsh's quads become better ones, and nothing else chan
     make_msh(directory / "in.msh", 4.1, false, [&] { build_recombined(algorithm); });
     const RunningGmsh gmsh;
     ::gmsh::open(directory / "in.msh");
-    const ModelReport report = improve_quads();
+    const ModelReport report = session::improve_quads();
     ::gmsh::option::setNumber("Mesh.SaveAll", 1);
     ::gmsh::write(directory / "out.msh");
     const Snapshot before = read_snapshot(directory / "in.msh"), after = read_snapshot(directory / "out.msh");
 
-    CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+    CHECK(report.count(SurfaceOutcome::converted) == 2);
     CHECK(report.surfaces[0].quads_in > 0);
     for (const SurfaceReport& surface : report.surfaces) {
-      CHECK(surface.triangles_out <= surface.stats.odd_regions);
-      CHECK(surface.stats.front_quads == 0);
+      CHECK(surface.triangles_out <= surface.conversion.odd_regions);
+      CHECK(surface.conversion.front_quads == 0);
     }
     CHECK(report.total.scaled_jacobian_min > 0.3);
     CHECK(difference(before, after, {1, 2}) == "");
@@ -64,7 +64,7 @@ TEST_CASE("improve_quads: only the surfaces that are asked for") {
     return std::make_pair(tags, nodes);
   };
   const auto before = tags_of(1);
-  const ModelReport report = improve_quads({2});
+  const ModelReport report = session::improve_quads({}, {2});
   CHECK(report.surfaces.size() == 1);
   CHECK(tags_of(1) == before);
 }

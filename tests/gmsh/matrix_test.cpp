@@ -193,7 +193,7 @@ TEST_CASE("matrix: from each version into each other") {
         const Result result = run_qmorph(words);
         CAPTURE(result.err);
         CHECK(result.status == 0);
-        CHECK(difference(before, read_snapshot(directory / "out.msh"), {1, 2}, Compare::kCoordinates) == "");
+        CHECK(difference(before, read_snapshot(directory / "out.msh"), {1, 2}, Compare::coordinates) == "");
       }
   }
 }

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 
 #include "gmsh/model/model_mesh.hpp"
@@ -10,6 +12,7 @@
 #include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/gmsh.hpp"
+#include "support/watcher.hpp"
 
 using namespace qmorph;
 using namespace qmorph::test;
@@ -28,6 +31,19 @@ std::size_t count_elements(int type) {
   return tags.size();
 }
 
+/// All nodes and elements, to compare.
+struct WholeMesh {
+  std::vector<std::size_t> node_tags;
+  std::vector<double> xyz, uv;
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> element_tags, nodes;
+  WholeMesh() {
+    ::gmsh::model::mesh::getNodes(node_tags, xyz, uv);
+    ::gmsh::model::mesh::getElements(types, element_tags, nodes);
+  }
+  bool operator==(const WholeMesh&) const = default;
+};
+
 }  // namespace
 
 TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
@@ -35,8 +51,8 @@ TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
   build_two_squares();
   const double abort_on_error = option("General.AbortOnError"), verbosity = option("General.Verbosity");
   const std::size_t lines = count_elements(adapter::kLine2);
-  const ModelReport report = recombine();
-  CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+  const ModelReport report = session::recombine();
+  CHECK(report.count(SurfaceOutcome::converted) == 2);
   CHECK(report.surfaces[0].name == "left");
   CHECK(count_elements(adapter::kQuad4) == report.total.quads);
   CHECK(count_elements(adapter::kTriangle3) == report.total.triangles);
@@ -46,26 +62,26 @@ TEST_CASE("recombine: stands in for gmsh::model::mesh::recombine") {
   CHECK(option("General.Verbosity") == verbosity);
 
   // A second run in the same process sees nothing of the first.
-  const ModelReport again = recombine({2});
+  const ModelReport again = session::recombine({}, {2});
   CHECK(again.surfaces.size() == 1);
-  CHECK(again.count(SurfaceOutcome::kAlreadyQuads) == 1);
+  CHECK(again.count(SurfaceOutcome::already_quads) == 1);
 }
 
 TEST_CASE("recombine: qmorph::gmsh::recombine(options) is the same for all surfaces") {
   const RunningGmsh gmsh;
   build_two_squares();
   const ModelReport report = qmorph::gmsh::recombine(Options());
-  CHECK(report.count(SurfaceOutcome::kConverted) == 2);
+  CHECK(report.count(SurfaceOutcome::converted) == 2);
   CHECK(count_elements(adapter::kTriangle3) == 0);
 }
 
 TEST_CASE("recombine: two models in one process, one after the other") {
   const RunningGmsh gmsh;
   build_two_squares();
-  const ModelReport first = recombine();
+  const ModelReport first = session::recombine();
   ::gmsh::clear();
   build_two_squares();
-  const ModelReport second = recombine();
+  const ModelReport second = session::recombine();
   CHECK(first.total.quads == second.total.quads);
   CHECK(first.total.scaled_jacobian_mean == second.total.scaled_jacobian_mean);
 }
@@ -74,7 +90,7 @@ TEST_CASE("recombine: a surface that is not there leaves the model alone") {
   const RunningGmsh gmsh;
   build_two_squares();
   const std::size_t triangles = count_elements(adapter::kTriangle3);
-  CHECK_THROWS_WITH_AS(recombine({1, 99}), "the model has no surface 99", UsageError);
+  CHECK_THROWS_WITH_AS(session::recombine({}, {1, 99}), "the model has no surface 99", UsageError);
   CHECK(count_elements(adapter::kTriangle3) == triangles);
   CHECK(count_elements(adapter::kQuad4) == 0);
 }
@@ -85,7 +101,7 @@ TEST_CASE("recombine: nodes of CAD surfaces keep parameters, and a volume can be
   ::gmsh::model::occ::synchronize();
   ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.25);
   ::gmsh::model::mesh::generate(2);
-  CHECK(recombine().count(SurfaceOutcome::kConverted) == 6);
+  CHECK(session::recombine().count(SurfaceOutcome::converted) == 6);
   const adapter::ModelMesh mesh = adapter::read_model_mesh();
   for (const auto& entity : mesh.entities) {
     if (entity.dim != 2) continue;
@@ -103,5 +119,73 @@ TEST_CASE("recombine: nodes of CAD surfaces keep parameters, and a volume can be
 
 TEST_CASE("recombine: an empty model has an empty report") {
   const RunningGmsh gmsh;
-  CHECK(recombine().surfaces.empty());
+  CHECK(session::recombine().surfaces.empty());
+}
+
+TEST_CASE("recombine: whoever cancels, or throws, finds the mesh as it was, and can go on") {
+  const RunningGmsh gmsh;
+  build_two_squares();
+  const WholeMesh before;
+  for (int n : {1, 2, 5}) {
+    CAPTURE(n);
+    int calls = 0;
+    Options options;
+    options.progress = [&](std::string_view, double) { return ++calls < n ? Progress::go_on : Progress::cancel; };
+    CHECK_THROWS_AS(session::recombine(options), Cancelled);
+    CHECK(WholeMesh() == before);
+    calls = 0;
+    options.progress = [&](std::string_view, double) {
+      return ++calls < n ? Progress::go_on : throw std::range_error("mine");
+    };
+    CHECK_THROWS_WITH_AS(session::recombine(options), "mine", std::range_error);
+    CHECK_THROWS_WITH_AS(session::improve_quads(options), "mine", std::range_error);
+    CHECK(WholeMesh() == before);
+  }
+  CHECK(session::recombine().count(SurfaceOutcome::converted) == 2);
+}
+
+TEST_CASE("recombine: observers are told of surfaces by their tags") {
+  const RunningGmsh gmsh;
+  build_two_squares();
+  Watcher watcher;
+  Options options;
+  options.observer = &watcher;
+  const ModelReport report = session::recombine(options);
+  REQUIRE(report.surfaces.size() == 2);
+  REQUIRE(watcher.stages.size() == 2 * kStages);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Watcher::StageNote& last = watcher.stages[(i + 1) * kStages - 1];
+    CHECK(int(last.surface) == report.surfaces[i].tag);
+    CHECK(last.mesh.quads.size() == report.surfaces[i].quads_out);
+    CHECK(int(watcher.fronts[i].surface) == report.surfaces[i].tag);
+    CHECK(watcher.fronts[i].player().surface == watcher.fronts[i].surface);
+  }
+}
+
+TEST_CASE("recombine: errors carry tags and places") {
+  const RunningGmsh gmsh;
+  build_two_squares();
+  try {
+    session::recombine({}, {99});
+    FAIL("nothing was said");
+  } catch (const UsageError& error) {
+    CHECK(error.kind() == ErrorKind::no_such_entity);
+    REQUIRE(error.subject());
+    CHECK(error.subject()->kind == ErrorSubject::Kind::surface);
+    CHECK(error.subject()->number == 99);
+  }
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, uv;
+  ::gmsh::model::mesh::getNodes(tags, xyz, uv, 2, 1);
+  REQUIRE_FALSE(tags.empty());
+  ::gmsh::model::mesh::setNode(tags[0], {xyz[0], xyz[1], 0.5}, {});
+  const ModelReport report = session::recombine({}, {1});
+  REQUIRE(report.surfaces[0].outcome == SurfaceOutcome::left);
+  REQUIRE(report.surfaces[0].error);
+  const ErrorDetails& error = *report.surfaces[0].error;
+  CHECK(error.kind == ErrorKind::not_planar);
+  REQUIRE(error.place);
+  REQUIRE(error.subject);
+  const adapter::ModelMesh mesh = adapter::read_model_mesh();
+  CHECK(mesh.points[mesh.rows.find(error.subject->number)] == *error.place);
 }

@@ -63,7 +63,7 @@ TEST_CASE("round trip: MSH 1, 3 and 4.0 stay what they are") {
     });
     CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh"}).status == 0);
     CHECK(difference(read_snapshot(directory / "in.msh"), read_snapshot(directory / "out.msh"), {1, 2},
-                     Compare::kCoordinates) == "");
+                     Compare::coordinates) == "");
     const std::size_t format = version > 1 ? 20 : 4;  // version 1 begins with $NOD
     CHECK(read_file(directory / "in.msh").substr(0, format) == read_file(directory / "out.msh").substr(0, format));
   }

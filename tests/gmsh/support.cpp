@@ -27,7 +27,7 @@ using Key = std::array<double, 4>;
 
 Key key(const ModelMesh& mesh, std::size_t tag, Compare compare) {
   const Eigen::Vector3d& p = mesh.points[mesh.rows.find(tag)];
-  return {compare == Compare::kTags ? static_cast<double>(tag) : 0.0, p.x(), p.y(), p.z()};
+  return {compare == Compare::tags ? static_cast<double>(tag) : 0.0, p.x(), p.y(), p.z()};
 }
 
 std::vector<Key> node_keys(const ModelMesh& mesh, const EntityMesh& entity, Compare compare) {
@@ -45,7 +45,7 @@ std::vector<std::pair<std::size_t, std::vector<Key>>> element_keys(const ModelMe
       std::vector<Key> keys;
       for (std::size_t k = 0; k < block.nodes_per_element; ++k)
         keys.push_back(key(mesh, block.nodes[e * block.nodes_per_element + k], compare));
-      elements.emplace_back(compare == Compare::kTags ? block.tags[e] : 0, keys);
+      elements.emplace_back(compare == Compare::tags ? block.tags[e] : 0, keys);
     }
   return elements;
 }
@@ -151,7 +151,7 @@ std::string difference(const Snapshot& before, const Snapshot& after, const std:
     return std::tie(a.dim, a.slave, a.master, a.nodes) == std::tie(b.dim, b.slave, b.master, b.nodes);
   };
   if (before.links.size() != after.links.size()) return "number of periodic links";
-  if (compare == Compare::kTags &&
+  if (compare == Compare::tags &&
       !std::equal(before.links.begin(), before.links.end(), after.links.begin(), same_link))
     return "periodic links";
   return {};

@@ -68,7 +68,7 @@ TEST_CASE("trap 2: a parse error does not lock the library for the next file") {
   CHECK_THROWS_AS(adapter::open_model(directory / "bad.geo"), InputError);
   ::gmsh::clear();
   CHECK_NOTHROW(adapter::open_model(directory / "good.geo"));
-  CHECK(recombine().count(SurfaceOutcome::kConverted) == 1);
+  CHECK(session::recombine().count(SurfaceOutcome::converted) == 1);
 }
 
 TEST_CASE("trap 3: a missing file is an error") {

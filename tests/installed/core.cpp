@@ -5,5 +5,5 @@ int main() {
   qmorph::Patch patch;
   patch.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   patch.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return qmorph::convert(patch).quads.size() == 1 ? 0 : 1;
+  return qmorph::convert(patch).mesh.quads.size() == 1 ? 0 : 1;
 }

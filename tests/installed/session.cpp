@@ -1,4 +1,4 @@
-// A program that runs the Gmsh API: qmorph::recombine() where gmsh::model::mesh::recombine() stood.
+// A program that runs the Gmsh API: qmorph::gmsh::recombine() where gmsh::model::mesh::recombine() stood.
 #include <gmsh.h>
 #include <qmorph/gmsh.hpp>
 
@@ -12,12 +12,12 @@ int main() {
   gmsh::option::setNumber("Mesh.MeshSizeMax", 0.1);
   gmsh::model::mesh::generate(2);
 
-  const qmorph::ModelReport report = qmorph::recombine();
+  const qmorph::ModelReport report = qmorph::gmsh::recombine();
   for (const qmorph::SurfaceReport& surface : report.surfaces)
     std::cout << "surface " << surface.tag << ": " << surface.quads_out << " quads, worst scaled Jacobian "
               << surface.quality.scaled_jacobian_min << '\n';
 
   gmsh::write("rectangle.msh");
   gmsh::finalize();
-  return report.count(qmorph::SurfaceOutcome::kConverted) == 1 && report.total.triangles == 0 ? 0 : 1;
+  return report.count(qmorph::SurfaceOutcome::converted) == 1 && report.total.triangles == 0 ? 0 : 1;
 }

@@ -18,9 +18,10 @@ except ImportError:
 
 class Browser:
     def __init__(self, width=1200, height=900, dark=False):
-        if not os.path.exists("/usr/bin/chromedriver"):
-            print("chromium-driver is not installed")
-            sys.exit(77)
+        for program, package in (("chromedriver", "chromium-driver"), ("chromium", "chromium")):
+            if not os.path.exists("/usr/bin/" + program):
+                print(package, "is not installed")
+                sys.exit(77)
         options = Options()
         for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"):
             options.add_argument(argument)

@@ -12,6 +12,8 @@
 namespace {
 
 using namespace qmorph::parallel;
+using qmorph::Progress;
+using qmorph::ProgressCallback;
 
 TEST_CASE("side by side: every index once, with any number of threads, also inside one another") {
   for (int threads : {0, 1, 2, 7}) {
@@ -41,8 +43,12 @@ TEST_CASE("side by side: of several exceptions the one of the lowest index comes
 
 TEST_CASE("side by side: the share of all parts together grows by their weights and never falls") {
   std::vector<double> shares;
-  const SharedProgress shared([&](std::string_view, double share) { shares.push_back(share); }, 10);
-  const Progress small = shared.part(2), large = shared.part(8);
+  const auto note = [&](std::string_view, double share) {
+    shares.push_back(share);
+    return Progress::go_on;
+  };
+  const SharedProgress shared(note, 10);
+  const ProgressCallback small = shared.part(2), large = shared.part(8);
   small("front", 0.5), large("front", 0.5), small("front", 1), large("front", 0.25), large("front", 1);
   const std::vector<double> wanted = {0.1, 0.5, 0.6, 0.6, 1};
   REQUIRE(shares.size() == wanted.size());

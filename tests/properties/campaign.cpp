@@ -63,7 +63,7 @@ Report run_seed(std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
   std::string problem;
   try {
-    const QuadMesh mesh = convert(domain.patch);
+    const QuadMesh mesh = convert(domain.patch).mesh;
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const auto broken = test::broken_invariants(domain.patch, mesh);
     if (!broken.empty()) problem = broken.front();
@@ -227,7 +227,7 @@ std::uint64_t run_child(std::uint64_t first, std::uint64_t last, Summary& summar
 /// The first thing that is wrong with the conversion of a patch; empty if all is well.
 std::string problem_of(const Patch& patch) {
   try {
-    const auto broken = test::broken_invariants(patch, convert(patch));
+    const auto broken = test::broken_invariants(patch, convert(patch).mesh);
     return broken.empty() ? "" : broken.front();
   } catch (const std::exception& e) {
     return std::string("exception: ") + e.what();
@@ -237,7 +237,7 @@ std::string problem_of(const Patch& patch) {
 void dump_patch(const Patch& patch, const std::string& prefix) {
   test::dump(patch, prefix + "-in.msh");
   try {
-    const QuadMesh mesh = convert(patch);
+    const QuadMesh mesh = convert(patch).mesh;
     test::dump(patch, mesh, prefix + "-out.msh");
     for (const std::string& line : test::broken_invariants(patch, mesh)) std::printf("%s\n", line.c_str());
   } catch (const std::exception& e) {

@@ -52,7 +52,7 @@ struct Case {
 };
 
 bool is_well_formed(Case& c) {
-  const auto& [points, source, triangles, quads, stats] = c.out;
+  const auto& [points, source, triangles, quads] = c.out;
   if (source.size() != points.size()) c.bad.add("malformed", source.size(), " sources, ", points.size(), " points");
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite()) c.bad.add("malformed", "point ", i, " is not finite");

@@ -63,7 +63,7 @@ std::vector<Vector2d> ring(Rng& rng, int corners, double radius, const Vector2d&
 /// An outline with holes, finely divided, and nothing inside.
 std::optional<Draft> hollow(Rng& rng) {
   Sketch sketch;
-  sketch.filling.pattern = Filling::kNothing;
+  sketch.filling.pattern = Filling::Pattern::nothing;
   sketch.size.smallest = sketch.size.largest = rng.between(0.02, 0.3);
   sketch.path(ring(rng, rng.range(3, 8), 1, {0, 0}), kBoundary, true);
   for (int holes = rng.range(0, 3); holes > 0; --holes) {
@@ -77,7 +77,7 @@ std::optional<Draft> hollow(Rng& rng) {
 /// A band round a hole that is far thinner than its edges are long, or far finer divided on one side.
 std::optional<Draft> gap(Rng& rng) {
   Sketch sketch;
-  sketch.filling.pattern = Filling::kNothing;
+  sketch.filling.pattern = Filling::Pattern::nothing;
   const int corners = rng.range(4, 60);
   const double width = rng.power_of_two(-8, -2);
   sketch.size.smallest = sketch.size.largest = rng.between(0.02, 1);
@@ -92,7 +92,7 @@ std::optional<Draft> gap(Rng& rng) {
 /// A corner of one to ten degrees.
 std::optional<Draft> needle(Rng& rng) {
   Sketch sketch;
-  sketch.filling.pattern = rng.chance(0.5) ? Filling::kNothing : Filling::kRows;
+  sketch.filling.pattern = rng.chance(0.5) ? Filling::Pattern::nothing : Filling::Pattern::rows;
   sketch.size.smallest = sketch.size.largest = rng.between(0.03, 0.3);
   const double angle = rng.between(1, 10) / 360;
   sketch.path({{-1, 0}, on_circle(-angle, 1) + Vector2d(0, -0.1), {1, rng.between(0, 0.5)}}, kBoundary, true);
@@ -102,7 +102,7 @@ std::optional<Draft> needle(Rng& rng) {
 /// Diamonds in a row, each touching the next, perhaps the outline too.
 std::optional<Draft> chain_of_holes(Rng& rng) {
   Sketch sketch;
-  sketch.filling.pattern = rng.chance(0.5) ? Filling::kNothing : Filling::kRows;
+  sketch.filling.pattern = rng.chance(0.5) ? Filling::Pattern::nothing : Filling::Pattern::rows;
   sketch.size.smallest = sketch.size.largest = rng.between(0.05, 0.3);
   sketch.path({{-1, -0.5}, {0, -0.5}, {1, -0.5}, {1, 0}, {1, 0.5}, {-1, 0.5}, {-1, 0}}, kBoundary, true);
   const int count = rng.range(2, 5);
@@ -118,7 +118,7 @@ std::optional<Draft> chain_of_holes(Rng& rng) {
 /// Lines that stand on the boundary or free, side by side.
 std::optional<Draft> slits(Rng& rng) {
   Sketch sketch;
-  sketch.filling.pattern = rng.chance(0.3) ? Filling::kNothing : Filling::kRows;
+  sketch.filling.pattern = rng.chance(0.3) ? Filling::Pattern::nothing : Filling::Pattern::rows;
   const int count = rng.range(1, 8);
   sketch.size.smallest = sketch.size.largest = rng.between(0.04, 0.4);
   std::vector<Vector2d> outline{{-1, -0.5}};

@@ -121,7 +121,7 @@ void channel(Rng& rng, Sketch& sketch) {
                  .growth = rng.between(0.1, 0.4),
                  .from = {-0.5, 0},
                  .to = {rng.chance(0.5) ? -0.5 : 0.3, 0}};
-  sketch.filling.pattern = Filling::kCells;
+  sketch.filling.pattern = Filling::Pattern::cells;
   sketch.path(box(-1.2, -0.8, 1.2, 0.8), kBoundary, true);
   std::vector<Vector2d> body;
   const double thick = rng.between(0.03, 0.15);
@@ -141,7 +141,7 @@ void graded(Rng& rng, Sketch& sketch) {
   const Vector2d at(rng.between(-0.8, 0.8), rng.chance(0.3) ? -1 : rng.between(-0.8, 0.8));
   sketch.size = {.smallest = coarse / 50, .largest = coarse, .growth = rng.between(0.15, 0.5), .from = at, .to = at};
   if (rng.chance(0.3)) sketch.size.to.x() += rng.between(-0.3, 0.3);
-  sketch.filling.pattern = Filling::kCells;
+  sketch.filling.pattern = Filling::Pattern::cells;
   const std::vector<Vector2d> corners = box(-1, -1, 1, 1);
   if (at.y() == -1) {
     sketch.path({corners[0], at, corners[1], corners[2], corners[3]}, kBoundary, true);
@@ -258,9 +258,9 @@ std::optional<Draft> drawn_domain(Rng& rng, std::string& name) {
   sketch.size.largest = std::sqrt(2 / (0.433 * triangles));
   sketch.filling.turn = rng.chance(0.5) ? 0 : rng.between(0, 1.5);
   sketch.filling.jitter = rng.chance(0.3) ? 0 : rng.between(0, 0.8);
-  if (rng.chance(0.25)) sketch.filling.pattern = Filling::kCells;
+  if (rng.chance(0.25)) sketch.filling.pattern = Filling::Pattern::cells;
   if (rng.chance(0.06)) {  // coarse: corners only
-    sketch.filling.pattern = Filling::kNothing;
+    sketch.filling.pattern = Filling::Pattern::nothing;
     sketch.size.largest = rng.between(0.3, 10);
     name += " coarse";
   }

@@ -94,7 +94,7 @@ void Sketch::fill(Rng& rng, std::vector<LatticePoint>& points) const {
     const bool inside = (place.array() > low.array()).all() && (place.array() < high.array()).all();
     if (inside && is_free(place, local)) points.push_back(to_lattice(place));
   };
-  if (filling.pattern == Filling::kCells) {  // a quadtree: cells are halved until they have the size
+  if (filling.pattern == Filling::Pattern::cells) {  // a quadtree: cells are halved until they have the size
     std::vector<std::pair<Vector2d, double>> cells{{(low + high) / 2, (high - low).maxCoeff()}};
     while (!cells.empty()) {
       const auto [centre, width] = cells.back();
@@ -106,7 +106,7 @@ void Sketch::fill(Rng& rng, std::vector<LatticePoint>& points) const {
       for (const double x : {-0.25, 0.25})
         for (const double y : {-0.25, 0.25}) cells.push_back({centre + width * Vector2d(x, y), width / 2});
     }
-  } else if (filling.pattern == Filling::kRows) {  // rows of equilateral triangles
+  } else if (filling.pattern == Filling::Pattern::rows) {  // rows of equilateral triangles
     const double step = size.largest, reach = (high - low).norm();
     const Vector2d along(std::cos(filling.turn), std::sin(filling.turn)), up(-along.y(), along.x());
     const int rows = int(reach / (step * 0.866)) + 1;

@@ -21,7 +21,7 @@ struct SizeField {
 
 /// How the inside is filled.
 struct Filling {
-  enum Pattern { kNothing, kCells, kRows } pattern = kRows;
+  enum class Pattern { nothing, cells, rows } pattern = Pattern::rows;
   double jitter = 0;  ///< share of the size
   double turn = 0;    ///< of the rows, radians
 };

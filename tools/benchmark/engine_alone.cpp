@@ -27,7 +27,7 @@ double memory(const std::string& name) {
 struct Timing {
   double seconds;  // of the processor, which other programs on the machine do not disturb
   double own;      // over those of the clock
-  qmorph::ConversionStats stats;
+  qmorph::ConversionReport report;
 };
 
 std::vector<qmorph::Patch> patches_of(const Triangulation& mesh) {
@@ -62,11 +62,11 @@ double run(Kind kind, const std::vector<qmorph::Patch>& patches, int repeats) {
     const double seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
     Timing timing{seconds, seconds / elapsed.count(), {}};
     for (const qmorph::Outcome& outcome : outcomes) {
-      if (!outcome.mesh) {
-        std::fprintf(stderr, "bench: %s\n", outcome.reason.c_str());
+      if (!outcome.conversion) {
+        std::fprintf(stderr, "bench: %s\n", outcome.error->what());
         return -1;
       }
-      timing.stats.add(outcome.mesh->stats);
+      timing.report.add(outcome.conversion->report);
     }
     timings.push_back(std::move(timing));
   }
@@ -76,15 +76,16 @@ double run(Kind kind, const std::vector<qmorph::Patch>& patches, int repeats) {
   qmorph::QualityAccumulator figures;
   std::size_t quads = 0, left = 0;
   for (const qmorph::Outcome& outcome : outcomes) {
-    figures.add(outcome.mesh->points, outcome.mesh->triangles, outcome.mesh->quads, Eigen::Vector3d::UnitZ());
-    quads += outcome.mesh->quads.size();
-    left += outcome.mesh->triangles.size();
+    const qmorph::QuadMesh& mesh = outcome.conversion->mesh;
+    figures.add(mesh.points, mesh.triangles, mesh.quads, Eigen::Vector3d::UnitZ());
+    quads += mesh.quads.size();
+    left += mesh.triangles.size();
   }
   const qmorph::Quality quality = figures.result();
   const double per_triangle = t.seconds / double(triangles);
   std::printf("%-13s %9zu %8.3f %8.3f %8.3f %8.3f %8.3f %8.2f %9zu %5zu %6.3f %6.3f %5.1f%% %7.0f\n", name_of(kind),
-              triangles, t.seconds, t.own * t.stats.front_seconds, t.own * t.stats.elimination_seconds,
-              t.own * t.stats.cleanup_seconds, t.own * t.stats.smoothing_seconds, 1e6 * per_triangle, quads, left,
+              triangles, t.seconds, t.own * t.report.front_seconds, t.own * t.report.elimination_seconds,
+              t.own * t.report.cleanup_seconds, t.own * t.report.smoothing_seconds, 1e6 * per_triangle, quads, left,
               quality.scaled_jacobian_min, quality.scaled_jacobian_mean, 100 * quality.irregular_share(),
               bytes / double(triangles));
   std::fflush(stdout);

@@ -241,16 +241,16 @@ Figures qmorph_recombines(const std::string& in, const std::string& out, int thr
   return pass_through(in, out, [&](Figures& figures) {
     qmorph::Options options;
     options.threads = threads;
-    const qmorph::ModelReport report = qmorph::recombine({}, options);
-    if (report.count(qmorph::SurfaceOutcome::kLeft) != 0) throw std::runtime_error("a surface was not converted");
+    const qmorph::ModelReport report = qmorph::gmsh::recombine(options);
+    if (report.count(qmorph::SurfaceOutcome::left) != 0) throw std::runtime_error("a surface was not converted");
     figures.read = report.read_seconds;
     figures.convert = report.convert_seconds;
     figures.check = report.check_seconds;
     figures.replace = report.replace_seconds;
     for (const qmorph::SurfaceReport& surface : report.surfaces) {
-      figures.front += surface.stats.front_seconds + surface.stats.elimination_seconds;
-      figures.cleanup += surface.stats.cleanup_seconds;
-      figures.smoothing += surface.stats.smoothing_seconds;
+      figures.front += surface.conversion.front_seconds + surface.conversion.elimination_seconds;
+      figures.cleanup += surface.conversion.cleanup_seconds;
+      figures.smoothing += surface.conversion.smoothing_seconds;
     }
   });
 }

@@ -17,7 +17,7 @@ Figures gmsh_meshes(double wanted, const std::string& path);
 /// A file of triangles becomes a file of quads, by Gmsh's own recombination: `algorithm` 0 is the simple one, 1 Blossom.
 Figures gmsh_recombines(const std::string& in, const std::string& out, int algorithm);
 
-/// The same by qmorph::recombine().
+/// The same by qmorph::gmsh::recombine().
 Figures qmorph_recombines(const std::string& in, const std::string& out, int threads);
 
 }  // namespace benchmark

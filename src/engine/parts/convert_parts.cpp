@@ -12,16 +12,16 @@ namespace {
 /// What one part becomes.
 struct PartResult {
   PartElements elements;
-  ConversionStats stats;
-  Snapshots snapshots;
+  ConversionReport report;
+  Record record;
 };
 
 PartResult work_on_part(const Region& part, const Plane& plane, const Options& options) {
   PartResult result;
   kernel::Mesh mesh(part.points, part.triangles, part.open);
   for (Index v : part.fixed) mesh.set_fixed(v);
-  Pipeline pipeline(options, result.stats, options.measure_stages ? &result.snapshots : nullptr, mesh);
-  if (const auto film = pipeline.advance_front(mesh)) result.stats.films.push_back(in_space(film, plane));
+  Pipeline pipeline(options, result.report, result.record, mesh);
+  pipeline.advance_front(mesh, plane);
   pipeline.clean(mesh);
   result.elements = PartElements(part.node, mesh);
   return result;
@@ -32,13 +32,15 @@ std::vector<PartResult> work_on_parts(const std::vector<Region>& parts, const Pl
   std::size_t triangles = 0;
   for (const Region& part : parts) triangles += part.triangles.size();
   const parallel::SharedProgress shared(options.progress, double(triangles));
-  std::vector<parallel::Progress> progress;
+  std::vector<ProgressCallback> progress;
   for (const Region& part : parts) progress.push_back(shared.part(double(part.triangles.size())));
   parallel::for_each_index(parts.size(), [&](std::size_t i) {
+    if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[i];
     results[i] = work_on_part(parts[i], plane, own);
   });
+  shared.finish();
   return results;
 }
 
@@ -46,7 +48,7 @@ kernel::Mesh join_stage(const Whole& whole, const std::vector<Region>& parts, co
                         Stage stage) {
   std::vector<PartElements> elements;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    elements.emplace_back(parts[i].node, *results[i].snapshots[std::size_t(stage)]);
+    elements.emplace_back(parts[i].node, *results[i].record.stages[std::size_t(stage)]);
   return join(whole, elements);
 }
 
@@ -57,7 +59,7 @@ bool is_large(std::size_t triangles, const Options& options) {
 }
 
 std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::Mesh& input, const Plane& plane,
-                                             const Options& options, ConversionStats& stats, Snapshots* snapshots) {
+                                             const Options& options, ConversionReport& report, Record& record) {
   if (has_grid_outline(start)) return {};  // cleanup will find the grid, but only in one piece
   const Division division = divide(start, options.part_triangles);
   if (division.parts < 2) return {};
@@ -68,16 +70,17 @@ std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::M
   std::vector<PartResult> results = work_on_parts(parts, plane, options);
   std::vector<PartElements> elements;
   for (PartResult& result : results) {
-    stats.add(result.stats);
+    report.add(result.report);
+    record.add(result.record);
     elements.push_back(std::move(result.elements));
   }
   kernel::Mesh mesh = join(whole, elements);
   elements.clear();
 
-  Pipeline pipeline(options, stats, snapshots, input);
-  if (snapshots)
+  Pipeline pipeline(options, report, record, input);
+  if (wants_stages(options))
     for (Stage stage : {Stage::front, Stage::elimination, Stage::smoothing})
-      (*snapshots)[std::size_t(stage)] = join_stage(whole, parts, results, stage);
+      record.stages[std::size_t(stage)] = join_stage(whole, parts, results, stage);
   pipeline.clean_near(mesh, division.interface);
   pipeline.polish(mesh);
   return mesh;

@@ -65,7 +65,7 @@ class Dividing {
  private:
   /// Cuts a part in two: false if that leaves nothing on one side.
   bool cut(Index part) {
-    const std::vector<Index> faces = std::move(parts_[part].faces), outline = std::move(parts_[part].outline);
+    const auto& [faces, outline] = parts_[part];
     const std::vector<Index> interface = interface_along(choose_line(faces, outline), part, faces);
     Part sides[2];
     for (Index f : faces) sides[int(other_[f])].faces.push_back(f);

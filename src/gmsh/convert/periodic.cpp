@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
-#include "gmsh/convert/check.hpp"
 #include "kernel/sort_unique.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
 namespace {
+
+/// How far a node may be from where the transformation puts its master's, in lengths of the shortest edge at it: files
+/// round, and Gmsh gives a node that a file has no pair for the nearest one, however far that is.
+constexpr double kImageTolerance = 0.01;
 
 /// From rows of the master's nodes to rows of the slave's.
 std::map<Index, Index> row_map(const PeriodicLink& link, const ModelMesh& mesh) {
@@ -26,9 +31,14 @@ std::map<Index, Index> local_numbers(const SurfacePart& part) {
   return local;
 }
 
+ErrorDetails periodic_with(const PeriodicLink& link) {
+  return {.kind = ErrorKind::periodic, .subject = ErrorSubject{ErrorSubject::Kind::surface, std::size_t(link.master)}};
+}
+
 [[noreturn]] void refuse_image(const PeriodicLink& link) {
   throw SurfaceError(
-      fmt::format("it is periodic with surface {}, and its mesh is not the image of that one's", link.master));
+      fmt::format("it is periodic with surface {}, and its mesh is not the image of that one's", link.master),
+      periodic_with(link));
 }
 
 /// Local numbers of the slave's part for those of the master's.
@@ -47,6 +57,35 @@ std::vector<Index> image_of_part(const PeriodicLink& link, const std::map<Index,
       slave.patch.quads.size() != master.patch.quads.size())
     refuse_image(link);
   return image;
+}
+
+/// For each point the length of the shortest edge at it.
+std::vector<double> shortest_edges(const Patch& patch) {
+  std::vector<double> shortest(patch.points.size(), std::numeric_limits<double>::infinity());
+  const auto visit = [&](const auto& polygons) {
+    for (const auto& polygon : polygons)
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        const double length = (patch.points[a] - patch.points[b]).norm();
+        shortest[a] = std::min(shortest[a], length);
+        shortest[b] = std::min(shortest[b], length);
+      }
+  };
+  visit(patch.triangles);
+  visit(patch.quads);
+  return shortest;
+}
+
+/// Pairs alone do not make an image: each node has to be where its master's is moved to, and no two in one place.
+void check_places(const PeriodicLink& link, const Patch& master, const Patch& slave, const std::vector<Index>& image) {
+  const std::vector<double> shortest = shortest_edges(slave);
+  std::vector<bool> taken(image.size());
+  for (Index i = 0; i < image.size(); ++i) {
+    const Eigen::Vector3d place = transformed(link.transformation, master.points[i]);
+    const bool fits = (slave.points[image[i]] - place).norm() <= kImageTolerance * shortest[image[i]];
+    if (!fits || taken[image[i]]) refuse_image(link);
+    taken[image[i]] = true;
+  }
 }
 
 }  // namespace
@@ -79,7 +118,8 @@ std::vector<PeriodicFamily> find_families(const std::vector<PeriodicLink>& links
 
 void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& master, SurfaceMesh& slave) {
   if (link.transformation.size() != 16)
-    throw SurfaceError(fmt::format("it is periodic with surface {}, and nothing says how", link.master));
+    throw SurfaceError(fmt::format("it is periodic with surface {}, and nothing says how", link.master),
+                       periodic_with(link));
   const std::map<Index, Index> rows = row_map(link, mesh);
   if (slave.parts.size() != master.parts.size()) refuse_image(link);
   std::vector<SurfacePart> ordered;
@@ -90,8 +130,10 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
     });
     if (found == slave.parts.end()) refuse_image(link);
     if (!found->patch.quads.empty() && !found->quad_tags.empty())
-      throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master));
+      throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master),
+                         periodic_with(link));
     const std::vector<Index> image = image_of_part(link, rows, part, *found);
+    check_places(link, part.patch, found->patch, image);
     std::vector<Index> back(image.size());
     for (Index i = 0; i < image.size(); ++i) back[image[i]] = i;
     for (Index i : found->patch.fixed) part.patch.fixed.push_back(back[i]);
@@ -123,7 +165,7 @@ std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurf
     shape.points = result.points;
     shape.triangles = result.triangles;
     shape.quads = result.quads;
-    if (patch_normal(shape).dot(patch_normal(patch)) < 0) {
+    if (mean_normal(shape).dot(mean_normal(patch)) < 0) {
       for (auto& triangle : result.triangles) std::reverse(triangle.begin(), triangle.end());
       for (auto& quad : result.quads) std::reverse(quad.begin(), quad.end());
     }

@@ -6,6 +6,7 @@
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/model/patches.hpp"
 #include "qmorph/patch.hpp"
+#include "qmorph/report.hpp"
 
 namespace qmorph::adapter {
 
@@ -13,6 +14,7 @@ namespace qmorph::adapter {
 struct ConvertedSurface {
   SurfaceMesh surface;
   std::vector<QuadMesh> results;
+  ConversionReport report{};  ///< of all parts together
 };
 
 /// Node tags of the results of one surface's parts.

@@ -7,20 +7,21 @@
 
 #include "gmsh/model/patches.hpp"
 #include "gmsh/model/periodic_links.hpp"
+#include "quality/sides.hpp"
 
 namespace qmorph::adapter {
 namespace {
 
-/// A side of an element of a surface.
-struct Side {
+/// A side of an element of one of several surfaces.
+struct SurfaceSide {
   Index low, high;
   std::uint32_t surface;
   Index triangle;  ///< numbered through all surfaces that are converted; kNone for any other element
   int order;       ///< of its element
 };
 
-std::vector<Side> sorted_sides(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces, Index& triangles) {
-  std::vector<Side> sides;
+std::vector<SurfaceSide> sides_of_surfaces(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces, Index& triangles) {
+  std::vector<SurfaceSide> sides;
   triangles = 0;
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
     if (mesh.entities[e].dim != 2) continue;
@@ -38,20 +39,10 @@ std::vector<Side> sorted_sides(const ModelMesh& mesh, const std::vector<std::uin
       }
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+  std::sort(sides.begin(), sides.end(), [](const SurfaceSide& s, const SurfaceSide& t) {
     return std::tie(s.low, s.high, s.surface, s.triangle) < std::tie(t.low, t.high, t.surface, t.triangle);
   });
   return sides;
-}
-
-/// Calls `visit(first, last)` for the sides of each edge.
-template <class Visit>
-void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
-  for (std::size_t first = 0, last; first < sides.size(); first = last) {
-    last = first + 1;
-    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
-    visit(first, last);
-  }
 }
 
 using Edge = std::pair<Index, Index>;  ///< rows, the smaller one first
@@ -193,21 +184,21 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b) {
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves) {
   Index triangles = 0;
-  const std::vector<Side> sides = sorted_sides(mesh, surfaces, triangles);
+  const std::vector<SurfaceSide> sides = sides_of_surfaces(mesh, surfaces, triangles);
   const FixedEdges fixed(mesh, use);
-  const auto is_inside = [&](std::size_t first, std::size_t last) {
-    const Side &s = sides[first], &t = sides[last - 1];
-    return last - first == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
+  const auto is_inside = [&](std::span<const SurfaceSide> edge) {
+    const SurfaceSide &s = edge.front(), &t = edge.back();
+    return edge.size() == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
            !fixed.contains(s.low, s.high);
   };
   Regions regions(triangles);
-  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-    if (is_inside(first, last)) regions.unite(sides[first].triangle, sides[first + 1].triangle);
+  for_each_edge(sides, [&](std::span<const SurfaceSide> edge) {
+    if (is_inside(edge)) regions.unite(edge[0].triangle, edge[1].triangle);
   });
 
   RegionGraph graph;
   std::vector<Index> number(triangles, kNone);
-  const auto region_of = [&](const Side& side) {
+  const auto region_of = [&](const SurfaceSide& side) {
     Index& region = number[regions.root(side.triangle)];
     if (region == kNone) {
       region = Index(graph.odd.size());
@@ -218,15 +209,15 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
   };
   const std::vector<Line> lines = sorted_lines(mesh);
   std::vector<Candidate> candidates;
-  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-    if (is_inside(first, last)) return;
-    bool may_split = last - first <= 2;
-    const Index a = sides[first].low, b = sides[first].high;
+  for_each_edge(sides, [&](std::span<const SurfaceSide> edge) {
+    if (is_inside(edge)) return;
+    bool may_split = edge.size() <= 2;
+    const Index a = edge[0].low, b = edge[0].high;
     Candidate candidate{{a, b}, {}, (mesh.points[a] - mesh.points[b]).norm(), {}};
-    for (std::size_t i = first; i < last; ++i) {
-      may_split = may_split && sides[i].triangle != kNone && sides[i].order == sides[first].order;
-      if (sides[i].triangle == kNone) continue;
-      candidate.regions.push_back(region_of(sides[i]));
+    for (const SurfaceSide& side : edge) {
+      may_split = may_split && side.triangle != kNone && side.order == edge[0].order;
+      if (side.triangle == kNone) continue;
+      candidate.regions.push_back(region_of(side));
       graph.odd[candidate.regions.back()] = !graph.odd[candidate.regions.back()];
     }
     if (use.volume[a] && use.volume[b]) may_split = false;
@@ -234,7 +225,7 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
                                              [](const Line& s, const Line& t) { return s.edge < t.edge; });
     for (auto line = from; line != to; ++line) {
       candidate.curves.insert(line->curve);
-      may_split = may_split && line->order == sides[first].order;
+      may_split = may_split && line->order == edge[0].order;
     }
     if (const std::uint32_t curve = curve_under(mesh, a, b); curve != kNobody)
       candidate.curves.insert(mesh.entities[curve].tag);

@@ -58,6 +58,8 @@ bool bounds_volume(const ModelMesh& mesh, const NodeUse& use, const EntityMesh& 
   return false;
 }
 
+ErrorSubject subject(ErrorSubject::Kind kind, int tag) { return {kind, std::size_t(tag)}; }
+
 std::vector<std::uint32_t> find_surfaces(const ModelMesh& mesh, const NodeUse& use, const std::vector<int>& wanted) {
   std::vector<int> missing = wanted;
   std::vector<std::uint32_t> found;
@@ -67,7 +69,10 @@ std::vector<std::uint32_t> find_surfaces(const ModelMesh& mesh, const NodeUse& u
     const bool asked = wanted.empty() || std::count(wanted.begin(), wanted.end(), mesh.entities[e].tag);
     if (asked && !bounds_volume(mesh, use, mesh.entities[e])) found.push_back(e);
   }
-  if (!missing.empty()) throw UsageError(fmt::format("the model has no surface {}", missing.front()));
+  if (!missing.empty())
+    throw UsageError(
+        fmt::format("the model has no surface {}", missing.front()),
+        {.kind = ErrorKind::no_such_entity, .subject = subject(ErrorSubject::Kind::surface, missing.front())});
   return found;
 }
 
@@ -76,13 +81,15 @@ std::set<int> check_curves(const ModelMesh& mesh, const std::vector<int>& keep_c
   for (const EntityMesh& entity : mesh.entities)
     if (entity.dim == 1) curves.insert(entity.tag);
   for (int tag : keep_curves)
-    if (!curves.count(tag)) throw UsageError(fmt::format("the model has no curve {}", tag));
+    if (!curves.count(tag))
+      throw UsageError(fmt::format("the model has no curve {}", tag),
+                       {.kind = ErrorKind::no_such_entity, .subject = subject(ErrorSubject::Kind::curve, tag)});
   return {keep_curves.begin(), keep_curves.end()};
 }
 
 }  // namespace
 
-EvenReport make_even(const std::vector<int>& surfaces, const std::vector<int>& keep_curves) {
+EvenReport session::make_even(const std::vector<int>& surfaces, const std::vector<int>& keep_curves) {
   const QuietErrors quiet;
   ReadMesh read = read_classified();
   const RegionGraph graph = find_region_graph(read.mesh, read.use, find_surfaces(read.mesh, read.use, surfaces),

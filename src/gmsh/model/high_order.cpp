@@ -9,8 +9,8 @@
 #include <set>
 #include <unordered_map>
 
-#include "gmsh/convert/check.hpp"
 #include "gmsh/session/element_types.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
@@ -191,7 +191,8 @@ Tags Raiser::raise(const Tags& corners, const ElementType& type) {
 
 ElementBlock Raiser::raise(const ElementBlock& linear, int order, bool incomplete) {
   const ElementType type = element_type(type_number(linear.corners, order, incomplete));
-  if (type.nodes == 0) throw SurfaceError(fmt::format("Gmsh has no element of order {} for it", order));
+  if (type.nodes == 0)
+    throw SurfaceError(fmt::format("Gmsh has no element of order {} for it", order), {.kind = ErrorKind::element_type});
   ElementBlock block;
   block.type = type.type;
   block.order = order;
@@ -236,11 +237,13 @@ int order_of(const EntityMesh& surface) {
   for (const ElementBlock& block : surface.blocks) {
     if (block.corners != 3 && block.corners != 4)
       throw SurfaceError(
-          fmt::format("it has elements with {} nodes that are neither triangles nor quads", block.nodes_per_element));
+          fmt::format("it has elements with {} nodes that are neither triangles nor quads", block.nodes_per_element),
+          {.kind = ErrorKind::element_type});
     orders.insert(block.order);
     if (!families.insert(block.corners).second) orders.insert(-1);
   }
-  if (orders.size() > 1) throw SurfaceError("it has elements of several orders; give them one order");
+  if (orders.size() > 1)
+    throw SurfaceError("it has elements of several orders; give them one order", {.kind = ErrorKind::element_type});
   return orders.empty() ? 1 : *orders.begin();
 }
 
@@ -256,7 +259,7 @@ void raise_order(const ModelMesh& mesh, const EntityMesh& before, bool incomplet
 
 std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, const SurfacePart& part,
                              const QuadMesh& result) {
-  if (order_of(before) < 2) return {};
+  if (order_of(before) == 1) return {};
   EdgeNodes edges;
   for (const ElementBlock& block : before.blocks) learn_edges(block, edges);
   const auto line = [&](Index a, Index b) {
@@ -270,7 +273,7 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, co
     return points;
   };
   const bool planar = is_planar(part.patch);
-  const Eigen::Vector3d of_patch = patch_normal(part.patch);
+  const Eigen::Vector3d of_patch = mean_normal(part.patch);
   const auto bent = [&](const auto& element) {
     Eigen::Vector3d normal = of_patch;
     if (!planar) {  // the element's own corners say which way is up

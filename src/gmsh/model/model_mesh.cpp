@@ -180,4 +180,8 @@ std::string describe_node(const ModelMesh& mesh, Index row) {
   return fmt::format("node {} at ({:g}, {:g}, {:g})", mesh.tags[row], p.x(), p.y(), p.z());
 }
 
+ErrorDetails at_node(const ModelMesh& mesh, Index row, ErrorKind kind) {
+  return {.kind = kind, .place = mesh.points[row], .subject = ErrorSubject{ErrorSubject::Kind::node, mesh.tags[row]}};
+}
+
 }  // namespace qmorph::adapter

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gmsh/session/element_types.hpp"
+#include "qmorph/error.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph::adapter {
@@ -88,7 +89,8 @@ NodeUse find_node_use(const ModelMesh& mesh, const std::vector<std::size_t>& pin
 /// puts all nodes in one block.
 bool is_misclassified(const ModelMesh& mesh, const NodeUse& use);
 
-/// "node 12 at (1, 2.5, 0)", for messages.
+/// "node 12 at (1, 2.5, 0)", for messages, and the same for programs.
 std::string describe_node(const ModelMesh& mesh, Index row);
+ErrorDetails at_node(const ModelMesh& mesh, Index row, ErrorKind kind);
 
 }  // namespace qmorph::adapter

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "gmsh/model/sides.hpp"
+#include "quality/sides.hpp"
 
 namespace qmorph::adapter {
 

@@ -34,13 +34,15 @@ std::vector<std::array<Index, N>> read_corners(const ModelMesh& mesh, const Elem
     const Index row = mesh.rows.find(block.nodes[i]);
     if (row == kNone)
       throw SurfaceError(
-          fmt::format("element {} uses node {}, which the mesh does not have", block.tags[e], block.nodes[i]));
+          fmt::format("element {} uses node {}, which the mesh does not have", block.tags[e], block.nodes[i]),
+          {.kind = ErrorKind::bad_element, .subject = ErrorSubject{ErrorSubject::Kind::element, block.tags[e]}});
     if (!mesh.points[row].allFinite())
-      throw SurfaceError(
-          fmt::format("{} is nowhere: its coordinates are not finite numbers", describe_node(mesh, row)));
+      throw SurfaceError(fmt::format("{} is nowhere: its coordinates are not finite numbers", describe_node(mesh, row)),
+                         at_node(mesh, row, ErrorKind::not_finite));
     if (mesh.points[row].cwiseAbs().maxCoeff() > kLargestCoordinate)
       throw SurfaceError(fmt::format("{} is too far away to compute with; scale the mesh (Mesh.ScalingFactor)",
-                                     describe_node(mesh, row)));
+                                     describe_node(mesh, row)),
+                         at_node(mesh, row, ErrorKind::not_finite));
     if (k < N) elements[e][k] = row;
   }
   return elements;
@@ -54,7 +56,10 @@ void refuse_repeated_corners(const ModelMesh& mesh, const ElementBlock& block,
       for (std::size_t j = 0; j < k; ++j)
         if (elements[e][k] == elements[e][j])
           throw SurfaceError(fmt::format("element {} uses {} twice; remove the element", block.tags[e],
-                                         describe_node(mesh, elements[e][k])));
+                                         describe_node(mesh, elements[e][k])),
+                             {.kind = ErrorKind::bad_element,
+                              .place = mesh.points[elements[e][k]],
+                              .subject = ErrorSubject{ErrorSubject::Kind::element, block.tags[e]}});
 }
 
 Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
@@ -76,10 +81,12 @@ Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
 void refuse_volume(const ModelMesh& mesh, const NodeUse& use, const Elements& elements) {
   for (const auto& triangle : elements.triangles)
     if (use.volume[triangle[0]] && use.volume[triangle[1]] && use.volume[triangle[2]])
-      throw SurfaceError(fmt::format(
-          "it bounds a volume that is meshed already (at {}), whose tetrahedra fit triangles only; --drop-volumes "
-          "removes them, and with -3 the volumes are meshed again on the quads",
-          describe_node(mesh, triangle[0])));
+      throw SurfaceError(
+          fmt::format(
+              "it bounds a volume that is meshed already (at {}), whose tetrahedra fit triangles only; --drop-volumes "
+              "removes them, and with -3 the volumes are meshed again on the quads",
+              describe_node(mesh, triangle[0])),
+          at_node(mesh, triangle[0], ErrorKind::volume));
 }
 
 /// Numbers rows 0, 1, 2, ... in the order in which they come.
@@ -121,9 +128,10 @@ Orientation orient_surface(const ModelMesh& mesh, const Elements& elements, std:
   const std::vector<Side> sides = sorted_sides(number.rows().size(), triangles, quads);
   Orientation orientation = orient(triangles.size() + quads.size(), sides);
   if (orientation.defect)
-    throw SurfaceError(fmt::format("{}, from {} to {}", orientation.defect,
-                                   describe_node(mesh, number.rows()[orientation.where.low]),
-                                   describe_node(mesh, number.rows()[orientation.where.high])));
+    throw SurfaceError(
+        fmt::format("{}, from {} to {}", orientation.defect, describe_node(mesh, number.rows()[orientation.where.low]),
+                    describe_node(mesh, number.rows()[orientation.where.high])),
+        at_node(mesh, number.rows()[orientation.where.low], ErrorKind::not_manifold));
   return orientation;
 }
 

@@ -1,12 +1,14 @@
 #include "gmsh/model/periodic_links.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
 #include <set>
 
+#include "gmsh/model/node_places.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/scratch_file.hpp"
 #include "gmsh/session/session.hpp"
@@ -91,9 +93,11 @@ void restore_links(const std::vector<PeriodicLink>& links) {
     out << "$EndPeriodic\n";
     if (!out.flush()) throw InputError("cannot write to the temporary file " + file.path());
   }
+  const NodePlaces places;
   const ScopedOption read_them("Mesh.IgnorePeriodicity", 0);
   const StageLog log = run_logged([&] { ::gmsh::merge(file.path()); });
   if (!log.errors.empty()) throw InputError("Gmsh cannot keep the periodic surfaces: " + first_errors(log));
+  places.restore();
 }
 
 }  // namespace qmorph::adapter

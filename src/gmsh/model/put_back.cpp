@@ -65,44 +65,6 @@ void clear_and_refill(const ModelMesh& mesh, const std::vector<Replacement>& rep
   for (const EntityMesh* entity : refill) add_elements(*entity);
 }
 
-#if QMORPH_GMSH_AT_LEAST(4, 13)
-
-/// Takes the elements of surfaces away alone. Nodes that stay keep their place in the model, periodic maps included.
-void exchange_elements(const ModelMesh& mesh, const std::vector<Replacement>& replacements) {
-  bool nodes_are_left_over = false;
-  for (const Replacement& replacement : replacements) ::gmsh::model::mesh::removeElements(2, replacement.fresh->tag);
-  for (const auto& [e, entity] : replacements) {
-    EntityMesh added;
-    added.dim = entity->dim;
-    added.tag = entity->tag;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < entity->node_tags.size(); ++i) {
-      const auto at = entity->xyz.begin() + std::ptrdiff_t(3 * i);
-      const std::vector<double> xyz(at, at + 3);
-      std::vector<double> uv;
-      if (!entity->uv.empty()) uv = {entity->uv[2 * i], entity->uv[2 * i + 1]};
-      if (mesh.rows.find(entity->node_tags[i]) != kNone) {
-        ::gmsh::model::mesh::setNode(entity->node_tags[i], xyz, uv);
-        ++kept;
-        continue;
-      }
-      added.node_tags.push_back(entity->node_tags[i]);
-      added.xyz.insert(added.xyz.end(), xyz.begin(), xyz.end());
-      added.uv.insert(added.uv.end(), uv.begin(), uv.end());
-    }
-    add_nodes(added);
-    nodes_are_left_over = nodes_are_left_over || mesh.entities[e].node_tags.size() != kept;
-  }
-  for (const Replacement& replacement : replacements) add_elements(*replacement.fresh);
-  if (nodes_are_left_over) ::gmsh::model::mesh::reclassifyNodes();
-}
-
-bool are_surfaces(const std::vector<Replacement>& replacements) {
-  return std::all_of(replacements.begin(), replacements.end(), [](const Replacement& r) { return r.fresh->dim == 2; });
-}
-
-#endif
-
 }  // namespace
 
 std::vector<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::vector<std::uint32_t>& changed) {
@@ -133,12 +95,7 @@ std::vector<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::vector
 }
 
 void put_back(const ModelMesh& mesh, const std::vector<Replacement>& replacements) {
-  const StageLog log = run_logged([&] {
-#if QMORPH_GMSH_AT_LEAST(4, 13)
-    if (are_surfaces(replacements)) return exchange_elements(mesh, replacements);
-#endif
-    clear_and_refill(mesh, replacements);
-  });
+  const StageLog log = run_logged([&] { clear_and_refill(mesh, replacements); });
   if (!log.errors.empty()) throw InputError("Gmsh cannot take the new elements back: " + first_errors(log));
   // Gmsh says it as a warning, and then nothing has been cleared.
   for (const std::string& warning : log.warnings)

@@ -14,6 +14,7 @@
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/model/periodic_links.hpp"
 #include "gmsh/read/groups.hpp"
+#include "gmsh/read/guest_model.hpp"
 #include "gmsh/read/msh_file.hpp"
 #include "gmsh/read/readable.hpp"
 #include "gmsh/session/compat.hpp"
@@ -63,23 +64,14 @@ Guest read_guest() {
 
 /// Reads a file into a model of its own, which is gone afterwards, with what hangs on it.
 Guest read_alone(const std::string& path) {
-  std::string host;
-  ::gmsh::model::getCurrent(host);
-  std::vector<int> views;
-  ::gmsh::view::getTags(views);
   Guest guest;
+  const GuestModel model;
   const StageLog log = run_logged([&] {
-    ::gmsh::model::add(host + " guest");
     ::gmsh::merge(path);
+    place_nodes_as_in(path);
     guest = read_guest();
-    guest.data = read_steps(views).steps;
+    guest.data = read_steps(model.views_before()).steps;
   });
-  std::vector<int> views_now;
-  ::gmsh::view::getTags(views_now);
-  for (int view : views_now)
-    if (!std::count(views.begin(), views.end(), view)) ::gmsh::view::remove(view);
-  ::gmsh::model::remove();
-  ::gmsh::model::setCurrent(host);
   if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be merged: {}", path, first_errors(log)));
   return guest;
 }

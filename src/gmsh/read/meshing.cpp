@@ -1,9 +1,11 @@
 #include "gmsh/read/meshing.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 
@@ -82,9 +84,19 @@ bool has_elements(int dim, int tag) {
   return !types.empty();
 }
 
+/// What the log says of a surface.
+StageLog complaints_about(int surface, const StageLog& log) {
+  const std::regex name(fmt::format("surface {}(?![0-9])", surface));
+  StageLog about;
+  std::copy_if(log.warnings.begin(), log.warnings.end(), std::back_inserter(about.errors),
+               [&](const std::string& line) { return std::regex_search(line, name); });
+  return about;
+}
+
+/// A surface that cannot be meshed is an error to some versions of Gmsh and a warning to others.
 /// The surface that Compound Surface makes hands its elements to those that it is made of, to narrow ones sometimes none.
 /// \return what is without elements for that reason
-std::vector<std::string> check_every_surface_has_elements() {
+std::vector<std::string> check_every_surface_has_elements(const StageLog& log) {
   bool compound = false;
   std::vector<int> bare;
   for (int tag : all_surfaces()) {
@@ -93,7 +105,9 @@ std::vector<std::string> check_every_surface_has_elements() {
     compound = compound || discrete;
     if (!discrete && area_or_one(tag) > 0) bare.push_back(tag);
   }
-  if (!bare.empty() && !compound) throw InputError(fmt::format("Gmsh made no element on surface {}", bare.front()));
+  if (!bare.empty() && !compound)
+    throw InputError(fmt::format("Gmsh cannot mesh it: no element on surface {}: {}", bare.front(),
+                                 first_errors(complaints_about(bare.front(), log))));
   if (bare.empty()) return {};
   return {fmt::format("Gmsh gave no element of a compound to surfaces {}", fmt::join(bare, ", "))};
 }
@@ -147,7 +161,7 @@ std::vector<std::string> mesh_surfaces() {
   });
   forgive_homology(log);
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
-  const std::vector<std::string> bare = check_every_surface_has_elements();
+  const std::vector<std::string> bare = check_every_surface_has_elements(log);
   log.warnings.insert(log.warnings.end(), bare.begin(), bare.end());
   return log.warnings;
 }

@@ -1,6 +1,7 @@
 #include "gmsh/read/msh2_groups.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -11,6 +11,7 @@
 #include <regex>
 
 #include "gmsh/read/groups.hpp"
+#include "gmsh/read/guest_model.hpp"
 #include "gmsh/read/merge.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/msh2_text.hpp"
@@ -175,6 +176,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   if (!options.merged.empty()) check_geometry_kept();
   if (!options.background.empty()) set_background(options.background);
   take_control();
+  if (opened.msh.version != 0) place_nodes_as_in(path);
   check_element_count(path, contents, opened.origin);
   add_groups(opened.origin);
   refuse_mixed_groups(opened.msh, opened.origin);

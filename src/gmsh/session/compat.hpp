@@ -4,7 +4,9 @@
 
 #include <gmsh.h>
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #define QMORPH_GMSH_AT_LEAST(major, minor) \
   (GMSH_API_VERSION_MAJOR > (major) || (GMSH_API_VERSION_MAJOR == (major) && GMSH_API_VERSION_MINOR >= (minor)))
@@ -20,6 +22,18 @@ inline std::string entity_type(int dim, int tag) {
   ::gmsh::model::getType(dim, tag, type);
 #endif
   return type;
+}
+
+/// Parameters of a node on its curve or surface; empty where it has none.
+inline std::vector<double> node_parameters(std::size_t tag) {
+  std::vector<double> xyz, parameters;
+#if QMORPH_GMSH_AT_LEAST(4, 9)
+  int dim = 0, entity = 0;
+  ::gmsh::model::mesh::getNode(tag, xyz, parameters, dim, entity);
+#else
+  ::gmsh::model::mesh::getNode(tag, xyz, parameters);
+#endif
+  return parameters;
 }
 
 }  // namespace qmorph::adapter

@@ -12,17 +12,17 @@ namespace fs = std::filesystem;
 
 ScratchFile::ScratchFile(const std::string& extension) {
   std::error_code error;
-  const fs::path directory = fs::temp_directory_path(error);
+  const fs::path place = fs::temp_directory_path(error);
   if (error) throw InputError("there is no directory for temporary files; set TMPDIR to one that exists");
-  path_ = (directory / ("qmorph-XXXXXX" + extension)).string();
-  const int file = ::mkstemps(path_.data(), static_cast<int>(extension.size()));
-  if (file < 0) throw InputError("no file can be made in " + directory.string() + "; set TMPDIR to another directory");
-  ::close(file);
+  directory_ = (place / "qmorph-XXXXXX").string();
+  if (!::mkdtemp(directory_.data()))
+    throw InputError("nothing can be written to " + place.string() + "; set TMPDIR to another directory");
+  path_ = (fs::path(directory_) / ("scratch" + extension)).string();
 }
 
 ScratchFile::~ScratchFile() {
   std::error_code ignored;
-  fs::remove(path_, ignored);
+  fs::remove_all(directory_, ignored);
 }
 
 }  // namespace qmorph::adapter

@@ -5,7 +5,8 @@
 
 namespace qmorph::adapter {
 
-/// A name for a file, which is removed at the end.
+/// A name for a file in a directory of its own. The directory is removed at the end with all that is in it: beside some
+/// files Gmsh writes others that nobody has asked for.
 class ScratchFile {
  public:
   /// \throws InputError if there is no directory for temporary files
@@ -16,7 +17,7 @@ class ScratchFile {
   const std::string& path() const { return path_; }
 
  private:
-  std::string path_;
+  std::string directory_, path_;
 };
 
 }  // namespace qmorph::adapter

@@ -1,6 +1,7 @@
 #include "gmsh/views/views.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>

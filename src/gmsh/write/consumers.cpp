@@ -1,6 +1,7 @@
 #include "gmsh/write/consumers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

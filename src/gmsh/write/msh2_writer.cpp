@@ -1,6 +1,7 @@
 #include "gmsh/write/msh2_writer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-// A film: what the front did, as changes from step to step. The coding is described in include/qmorph/film.hpp.
+// A film: what the front did, as changes from step to step. The coding is described in src/report/film.hpp.
 
 export const kSteps = [
   {name: "quad"}, {name: "small loop closed"}, {name: "seam"}, {name: "transition seam"}, {name: "transition split"},

@@ -1,9 +1,9 @@
-#include "gmsh/model/sides.hpp"
+#include "quality/sides.hpp"
 
 #include <algorithm>
 #include <tuple>
 
-namespace qmorph::adapter {
+namespace qmorph {
 namespace {
 
 template <std::size_t N, class Visit>
@@ -36,4 +36,4 @@ std::vector<Side> sorted_sides(std::size_t points, std::span<const std::array<In
   return sides;
 }
 
-}  // namespace qmorph::adapter
+}  // namespace qmorph

@@ -1,4 +1,5 @@
-/// What is recorded of the front.
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What is recorded of the front, byte by byte.
 
 #include <doctest/doctest.h>
 
@@ -7,17 +8,20 @@
 #include <map>
 #include <set>
 
-#include "front/film_recorder.hpp"
 #include "front/fixture.hpp"
 #include "front/morph.hpp"
-#include "qmorph/convert.hpp"
-#include "support/domains.hpp"
+#include "report/film.hpp"
+#include "support/watcher.hpp"
 
 using namespace qmorph;
+using qmorph::report::Film;
+using qmorph::report::FilmRecorder;
+using qmorph::test::live_faces;
+using qmorph::test::turned;
 
 namespace {
 
-/// Plays a film as include/qmorph/film.hpp says.
+/// Plays a film as report/film.hpp says.
 class Player {
  public:
   explicit Player(const Film& film) : film_(film), faces(film.faces) {
@@ -39,7 +43,7 @@ class Player {
   std::vector<std::array<std::int64_t, 2>> points;
   std::vector<std::array<Index, 4>> faces;
   std::map<std::array<Index, 2>, unsigned> levels;
-  std::map<FilmStep, int> kinds;
+  std::map<StepKind, int> kinds;
 
  private:
   std::uint64_t number() {
@@ -57,9 +61,9 @@ class Player {
   Index near(Index v) { return Index(std::int64_t(v) + signed_number()); }
 
   void play() {
-    const FilmStep kind = FilmStep(film_.bytes.at(at_++));
+    const StepKind kind = StepKind(film_.bytes.at(at_++));
     ++kinds[kind];
-    if (kind == FilmStep::quad) ++at_, number();
+    if (kind == StepKind::quad) ++at_, number();
     const Index base = Index(number());
     near(base);
     const auto from = points[base];
@@ -86,20 +90,6 @@ class Player {
   }
 };
 
-/// Corners in order from the smallest.
-std::array<Index, 4> turned(std::array<Index, 4> face) {
-  const auto end = face[3] == kNone ? face.begin() + 3 : face.end();
-  std::rotate(face.begin(), std::min_element(face.begin(), end), end);
-  return face;
-}
-
-std::set<std::array<Index, 4>> live_faces(const std::vector<std::array<Index, 4>>& faces) {
-  std::set<std::array<Index, 4>> live;
-  for (const auto& face : faces)
-    if (face[0] != kNone) live.insert(turned(face));
-  return live;
-}
-
 std::set<std::array<Index, 4>> live_faces(const kernel::Mesh& mesh) {
   std::set<std::array<Index, 4>> live;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
@@ -112,6 +102,12 @@ std::set<std::array<Index, 4>> live_faces(const kernel::Mesh& mesh) {
   return live;
 }
 
+struct FilmMaker : Observer {
+  std::unique_ptr<FrontObserver> front_starts(const FrontStart& start) override {
+    return std::make_unique<FilmRecorder>(start);
+  }
+};
+
 }  // namespace
 
 TEST_CASE("film: played to its end it is the mesh that the front made, to a fraction of an edge") {
@@ -120,15 +116,15 @@ TEST_CASE("film: played to its end it is the mesh that the front made, to a frac
     CAPTURE(seed);
     test::Rng rng(seed);
     kernel::Mesh mesh = test::random_mesh(rng);
-    front::FilmRecorder recorder(mesh, FrontOptions{}.corner_angle);
-    front::morph(mesh, {}, false, {}, &recorder);
-    const std::shared_ptr<Film> film = recorder.finish();
-    const Player player(*film);
+    FilmMaker maker;
+    const auto recorder = front::morph(mesh, {}, {.observer = &maker});
+    const Film film = static_cast<FilmRecorder&>(*recorder).finish();
+    const Player player(film);
     CHECK(player.is_at_end());
     CHECK(live_faces(player.faces) == live_faces(mesh));
     for (Index v = 0; v < mesh.vertex_slots(); ++v)
-      if (mesh.is_live_vertex(v)) CHECK((player.point(v).head<2>() - mesh.point(v)).norm() <= film->axis_u.norm());
-    quads += player.kinds.contains(FilmStep::quad) ? player.kinds.at(FilmStep::quad) : 0;
+      if (mesh.is_live_vertex(v)) CHECK((player.point(v).head<2>() - mesh.point(v)).norm() <= film.axis_u.norm());
+    quads += player.kinds.contains(StepKind::quad) ? player.kinds.at(StepKind::quad) : 0;
     // A level is the number of rows behind it: none is missing between two.
     unsigned highest = 0;
     std::set<unsigned> found;
@@ -136,27 +132,4 @@ TEST_CASE("film: played to its end it is the mesh that the front made, to a frac
     for (unsigned level = 1; level <= highest; ++level) CHECK(found.contains(level));
   }
   CHECK(quads > 500);
-}
-
-TEST_CASE("film: nothing changes for being watched") {
-  for (std::uint64_t seed = 20; seed < 26; ++seed) {
-    const test::Domain domain = test::random_domain(seed);
-    Options watched;
-    watched.record_film = true;
-    const QuadMesh plain = convert(domain.patch), filmed = convert(domain.patch, watched);
-    CHECK(plain.points == filmed.points);
-    CHECK(plain.quads == filmed.quads);
-    CHECK(plain.stats.films.empty());
-    CHECK(filmed.stats.films.size() == filmed.stats.regions);
-  }
-}
-
-TEST_CASE("stages: each surface is kept as it was after each stage, if asked") {
-  Options options;
-  options.measure_stages = options.keep_stages = true;
-  const QuadMesh mesh = convert(test::random_domain(3).patch, options);
-  REQUIRE(mesh.stats.stages.size() == kStages);
-  for (const StageFigures& stage : mesh.stats.stages) REQUIRE(stage.meshes.size() == 1);
-  CHECK(mesh.stats.stages.front().meshes[0]->quads.empty());
-  CHECK(mesh.stats.stages.back().meshes[0]->quads == mesh.quads);
 }

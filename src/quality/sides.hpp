@@ -8,7 +8,7 @@
 
 #include "qmorph/patch.hpp"
 
-namespace qmorph::adapter {
+namespace qmorph {
 
 /// One side of one element: from `low` to `high` if `forward`, else from `high` to `low`.
 struct Side {
@@ -21,15 +21,16 @@ struct Side {
 std::vector<Side> sorted_sides(std::size_t points, std::span<const std::array<Index, 3>> triangles,
                                std::span<const std::array<Index, 4>> quads);
 
-/// Calls `visit(std::span<const Side>)` for each edge with the sides that lie on it.
-template <class Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
+/// Calls `visit(std::span<const Side>)` for each edge with the sides that lie on it. \pre they follow one another; of any
+/// kind of side with `low` and `high`
+template <class AnySide, class Visit>
+void for_each_edge(const std::vector<AnySide>& sides, Visit&& visit) {
   for (std::size_t first = 0; first < sides.size();) {
     std::size_t last = first + 1;
     while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
-    visit(std::span<const Side>(sides).subspan(first, last - first));
+    visit(std::span<const AnySide>(sides).subspan(first, last - first));
     first = last;
   }
 }
 
-}  // namespace qmorph::adapter
+}  // namespace qmorph

@@ -1,19 +1,19 @@
-#include "gmsh/convert/check.hpp"
-
-#include <fmt/format.h>
+#include "qmorph/check.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <sstream>
 #include <utility>
 #include <vector>
 
-#include "gmsh/model/sides.hpp"
+#include "geometry/describe.hpp"
 #include "quality/shapes.hpp"
+#include "quality/sides.hpp"
 #include "space/faults.hpp"
 
-namespace qmorph::adapter {
+namespace qmorph {
 namespace {
 
 using Edge = std::pair<Index, Index>;
@@ -24,7 +24,10 @@ constexpr double kAreaTolerance = 1e-9;
 /// The sine of a corner of 180 degrees, up to rounding: more than that is a corner.
 constexpr double kLeastCornerSine = 1e-10;
 
-std::string at(const Eigen::Vector3d& p) { return fmt::format("at ({:g}, {:g}, {:g})", p.x(), p.y(), p.z()); }
+using Finding = std::optional<Defect>;
+
+/// `what` and where it is.
+Defect at(const Eigen::Vector3d& place, const char* what) { return {what + (" at " + describe(place)), place}; }
 
 /// Twice the area vector of a polygon, seen from its first corner.
 template <std::size_t N>
@@ -67,11 +70,11 @@ std::size_t bad_corner(const std::vector<Eigen::Vector3d>& points, const std::ar
 }
 
 template <std::size_t N>
-std::string find_bad_corner(const QuadMesh& mesh, std::span<const std::array<Index, N>> elements,
+Finding find_bad_corner(const QuadMesh& mesh, std::span<const std::array<Index, N>> elements,
                             const Eigen::Vector3d& normal) {
   for (const auto& element : elements)
     if (const std::size_t k = bad_corner(mesh.points, element, normal); k < N)
-      return "an element has a corner that is not convex " + at(mesh.points[element[k]]);
+      return at(mesh.points[element[k]], "an element has a corner that is not convex");
   return {};
 }
 
@@ -83,8 +86,8 @@ std::vector<Index> result_rows(const Patch& patch, const QuadMesh& mesh) {
   return rows;
 }
 
-std::string find_bad_reference(const Patch& patch, const QuadMesh& mesh) {
-  if (mesh.source.size() != mesh.points.size()) return "the result does not say where its nodes come from";
+Finding find_bad_reference(const Patch& patch, const QuadMesh& mesh) {
+  if (mesh.source.size() != mesh.points.size()) return Defect{"the result does not say where its nodes come from", {}};
   std::vector<bool> used(mesh.points.size(), false), taken(patch.points.size(), false);
   const auto use = [&](const auto& element) {
     for (Index i : element) {
@@ -95,27 +98,27 @@ std::string find_bad_reference(const Patch& patch, const QuadMesh& mesh) {
   };
   if (!std::all_of(mesh.triangles.begin(), mesh.triangles.end(), use) ||
       !std::all_of(mesh.quads.begin(), mesh.quads.end(), use))
-    return "an element of the result uses a node that does not exist";
+    return Defect{"an element of the result uses a node that does not exist", {}};
   for (Index i = 0; i < mesh.points.size(); ++i) {
-    if (!used[i]) return "no element of the result uses its node " + at(mesh.points[i]);
+    if (!used[i]) return at(mesh.points[i], "no element of the result uses its node");
     if (mesh.source[i] == kNone) continue;
     if (mesh.source[i] >= taken.size() || taken[mesh.source[i]])
-      return "two nodes of the result have one origin " + at(mesh.points[i]);
+      return at(mesh.points[i], "two nodes of the result have one origin");
     taken[mesh.source[i]] = true;
   }
   return {};
 }
 
-std::string find_moved_node(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows, Index node) {
-  if (rows[node] == kNone) return "a fixed node is gone " + at(patch.points[node]);
-  if (mesh.points[rows[node]] != patch.points[node]) return "a fixed node has moved " + at(patch.points[node]);
+Finding find_moved_node(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows, Index node) {
+  if (rows[node] == kNone) return at(patch.points[node], "a fixed node is gone");
+  if (mesh.points[rows[node]] != patch.points[node]) return at(patch.points[node], "a fixed node has moved");
   return {};
 }
 
 /// Edges of the result in order, split into those with one element and those with two.
 struct ResultEdges {
   std::vector<Edge> outer, inner;
-  std::string defect;
+  Finding defect;
 };
 
 ResultEdges collect_edges(const QuadMesh& mesh) {
@@ -124,7 +127,7 @@ ResultEdges collect_edges(const QuadMesh& mesh) {
     const Edge ends{edge[0].low, edge[0].high};
     (edge.size() == 1 ? edges.outer : edges.inner).push_back(ends);
     if (edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward))
-      edges.defect = "elements overlap " + at(mesh.points[ends.first]);
+      edges.defect = at(mesh.points[ends.first], "elements overlap");
   });
   return edges;
 }
@@ -138,83 +141,88 @@ Edge moved_edge(const std::vector<Index>& rows, Index a, Index b) {
 }
 
 /// Boundary and constraint edges of the input, and the nodes that they hold in place.
-std::string find_lost_edge(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows) {
+Finding find_lost_edge(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows) {
   const ResultEdges edges = collect_edges(mesh);
-  if (!edges.defect.empty()) return edges.defect;
+  if (edges.defect) return edges.defect;
   std::vector<Edge> outer;
   for_each_edge(sorted_sides(patch.points.size(), patch.triangles, patch.quads), [&](std::span<const Side> edge) {
     if (edge.size() == 1) outer.emplace_back(edge[0].low, edge[0].high);
   });
-  const auto check = [&](Index a, Index b, bool is_outer) -> std::string {
+  const auto check = [&](Index a, Index b, bool is_outer) -> Finding {
     for (Index node : {a, b})
-      if (std::string moved = find_moved_node(patch, mesh, rows, node); !moved.empty()) return moved;
+      if (Finding moved = find_moved_node(patch, mesh, rows, node)) return moved;
     const Edge edge = moved_edge(rows, a, b);
     if (has(edges.outer, edge) || (!is_outer && has(edges.inner, edge))) return {};
-    return fmt::format("the {} edge from ({:g}, {:g}, {:g}) is gone", is_outer ? "boundary" : "constraint",
-                       patch.points[a].x(), patch.points[a].y(), patch.points[a].z());
+    return Defect{std::string("the ") + (is_outer ? "boundary" : "constraint") + " edge from " +
+                      describe(patch.points[a]) + " is gone",
+                  patch.points[a]};
   };
   for (const auto& [a, b] : outer)
-    if (std::string defect = check(a, b, true); !defect.empty()) return defect;
+    if (Finding defect = check(a, b, true)) return defect;
   for (const auto& [a, b] : patch.constraints)
-    if (std::string defect = check(a, b, false); !defect.empty()) return defect;
-  if (edges.outer.size() != outer.size()) return "the result has more boundary edges than the input";
+    if (Finding defect = check(a, b, false)) return defect;
+  if (edges.outer.size() != outer.size()) return Defect{"the result has more boundary edges than the input", {}};
   return {};
 }
 
-std::string find_changed_quad(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows) {
-  if (mesh.quads.size() < patch.quads.size()) return "a quad of the input is gone";
+Finding find_changed_quad(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows) {
+  if (mesh.quads.size() < patch.quads.size()) return Defect{"a quad of the input is gone", {}};
   for (std::size_t q = 0; q < patch.quads.size(); ++q)
     for (std::size_t k = 0; k < 4; ++k) {
-      if (std::string moved = find_moved_node(patch, mesh, rows, patch.quads[q][k]); !moved.empty()) return moved;
+      if (Finding moved = find_moved_node(patch, mesh, rows, patch.quads[q][k])) return moved;
       if (mesh.quads[q][k] != rows[patch.quads[q][k]])
-        return "a quad of the input has changed " + at(patch.points[patch.quads[q][k]]);
+        return at(patch.points[patch.quads[q][k]], "a quad of the input has changed");
     }
   return {};
 }
 
+Defect area_defect(double factor) {
+  std::ostringstream text;
+  text.precision(9);
+  text << "the area has changed by a factor of " << factor;
+  return {text.str(), {}};
+}
+
 }  // namespace
 
-Eigen::Vector3d patch_normal(const Patch& patch) { return area_vector(patch).normalized(); }
+Eigen::Vector3d mean_normal(const Patch& patch) { return area_vector(patch).normalized(); }
 
 bool is_planar(const Patch& patch) { return plane_normal(patch).has_value(); }
 
-BadQuad find_bad_quad(const Patch& patch) {
+std::optional<BadQuad> find_bad_quad(const Patch& patch) {
   if (!is_planar(patch)) {
     Index corner = kNone;
     const Index quad = space::find_bad_quad(patch, corner);
-    return quad == kNone ? BadQuad{} : BadQuad{quad, at(patch.points[corner])};
+    return quad == kNone ? std::nullopt : std::optional(BadQuad{quad, patch.points[corner]});
   }
-  const Eigen::Vector3d normal = patch_normal(patch);
+  const Eigen::Vector3d normal = mean_normal(patch);
   for (Index q = 0; q < patch.quads.size(); ++q)
     if (const std::size_t k = bad_corner(patch.points, patch.quads[q], normal); k < 4)
-      return {q, at(patch.points[patch.quads[q][k]])};
+      return BadQuad{q, patch.points[patch.quads[q][k]]};
   return {};
 }
 
-std::string find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads) {
-  if (std::string defect = find_bad_reference(patch, mesh); !defect.empty()) return defect;
+std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads) {
+  if (Finding defect = find_bad_reference(patch, mesh)) return defect;
   const std::vector<Index> rows = result_rows(patch, mesh);
   for (Index node : patch.fixed)
-    if (std::string defect = find_moved_node(patch, mesh, rows, node); !defect.empty()) return defect;
-  if (std::string defect = find_lost_edge(patch, mesh, rows); !defect.empty()) return defect;
+    if (Finding defect = find_moved_node(patch, mesh, rows, node)) return defect;
+  if (Finding defect = find_lost_edge(patch, mesh, rows)) return defect;
   const bool kept = quads == InputQuads::kept;
   if (kept)
-    if (std::string defect = find_changed_quad(patch, mesh, rows); !defect.empty()) return defect;
+    if (Finding defect = find_changed_quad(patch, mesh, rows)) return defect;
 
-  if (!is_planar(patch)) {
-    const auto fault = space::find_fault(patch, mesh, kept ? patch.quads.size() : 0);
-    return fault ? fault->what + " " + at(fault->where) : std::string();
-  }
-  const Eigen::Vector3d normal = patch_normal(patch);
+  if (!is_planar(patch)) return space::find_defect(patch, mesh, kept ? patch.quads.size() : 0);
+  const Eigen::Vector3d normal = mean_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);
-  if (std::string bad = find_bad_corner<4>(mesh, made, normal); !bad.empty()) return bad;
-  if (std::string bad = find_bad_corner<3>(mesh, mesh.triangles, normal); !bad.empty()) return bad;
+  if (Finding bad = find_bad_corner<4>(mesh, made, normal)) return bad;
+  if (Finding bad = find_bad_corner<3>(mesh, mesh.triangles, normal)) return bad;
   // Quads that are free to change may be turned over in the input.
   const double before = kept ? twice_area(patch) : area_vector(patch).norm(), after = twice_area(mesh);
   if (!(std::abs(after - before) <= kAreaTolerance * before))
-    return fmt::format("the area has changed by a factor of {:.9g}", after / before);
+    return area_defect(after / before);
   return {};
 }
 
-}  // namespace qmorph::adapter
+}  // namespace qmorph
