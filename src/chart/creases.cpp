@@ -53,6 +53,42 @@ bool is_of_bend(const space::Background& surface, Index side, double angle) {
          turn_beyond(surface, side, -axis) > kLeastBeyond * angle;
 }
 
+/// Faces between creases, by triangle: the number of the face.
+std::vector<Index> faces_between(const space::Background& surface, const std::vector<bool>& is_crease, Index& count) {
+  std::vector<Index> face(surface.triangles(), kNone);
+  count = 0;
+  for (Index first = 0; first < surface.triangles(); ++first) {
+    if (face[first] != kNone) continue;
+    face[first] = count;
+    std::vector<Index> some{first};
+    for (std::size_t k = 0; k < some.size(); ++k)
+      for (Index side = 3 * some[k]; side < 3 * some[k] + 3; ++side) {
+        const Index other = surface.opposite(side);
+        if (other == kNone || is_crease[side] || face[other / 3] != kNone) continue;
+        face[other / 3] = count;
+        some.push_back(other / 3);
+      }
+    ++count;
+  }
+  return face;
+}
+
+/// A face between creases that is one triangle, or few of which some have no normal, is a fault of the triangulation, not one of
+/// the shape: what is sharp around it says nothing.
+void drop_around_crumbs(const space::Background& surface, const std::vector<char>& counts,
+                        std::vector<bool>& is_crease) {
+  constexpr std::size_t kFew = 8;
+  Index faces = 0;
+  const std::vector<Index> face = faces_between(surface, is_crease, faces);
+  std::vector<std::size_t> all(faces, 0), with_normal(faces, 0);
+  for (Index t = 0; t < surface.triangles(); ++t) ++all[face[t]], with_normal[face[t]] += counts[t] != 0;
+  for (Index side = 0; side < is_crease.size(); ++side) {
+    const Index f = face[side / 3];
+    if (!is_crease[side] || !(with_normal[f] <= 1 || (all[f] <= kFew && with_normal[f] < all[f]))) continue;
+    is_crease[side] = is_crease[surface.opposite(side)] = false;
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle) {
@@ -60,14 +96,19 @@ std::vector<std::pair<Index, Index>> find_creases(const space::Background& surfa
   if (angle >= std::numbers::pi) return creases;
   const double least = std::cos(angle);
   std::vector<char> counts(surface.triangles(), 0);
+  std::vector<bool> is_crease(3 * surface.triangles(), false);
   for (Index t = 0; t < surface.triangles(); ++t) counts[t] = has_normal(surface, t);
   for (Index side = 0; side < 3 * surface.triangles(); ++side) {
     const Index other = surface.opposite(side), t = side / 3;
     if (other == kNone || other < side || !counts[t] || !counts[other / 3]) continue;
     const double cosine = surface.normal(t).dot(surface.normal(other / 3));
     if (cosine >= least || is_of_bend(surface, side, std::acos(std::max(-1.0, cosine)))) continue;
-    creases.push_back(std::minmax(surface.corners(t)[side % 3], surface.corners(t)[(side + 1) % 3]));
+    is_crease[side] = is_crease[other] = true;
   }
+  drop_around_crumbs(surface, counts, is_crease);
+  for (Index side = 0; side < is_crease.size(); ++side)
+    if (is_crease[side])
+      creases.push_back(std::minmax(surface.corners(side / 3)[side % 3], surface.corners(side / 3)[(side + 1) % 3]));
   sort_unique(creases);
   return creases;
 }

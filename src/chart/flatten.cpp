@@ -7,7 +7,7 @@
 #include <complex>
 #include <limits>
 
-#include "quality/percentile.hpp"
+#include "chart/turn_back.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -20,6 +20,10 @@ constexpr double kLeastHeight = 1e-3;
 constexpr int kMostRounds = 30;
 /// Rounds end when one lowers the energy by less than this share of it.
 constexpr double kLeastGain = 0.02;
+/// A triangle with a smaller sine is as bad as one that is turned over.
+constexpr double kLeastSine = 1e-4;
+/// Distortions are no larger than the inverse of this.
+constexpr double kFlat = 1e-3;
 
 /// A triangle in a plane of its own: corners at 0, (base, 0) and `tip`.
 struct Shape {
@@ -60,6 +64,12 @@ Complex complex_of(const Vec2& p) { return {p.x(), p.y()}; }
 Map map_of(const space::Background& surface, const Shape& shape, Index t, const std::vector<Vec2>& points) {
   const auto& [a, b, c] = surface.corners(t);
   return map_of(shape, complex_of(points[a]), complex_of(points[b]), complex_of(points[c]));
+}
+
+double sine_of(const space::Background& surface, Index t, const std::vector<Vec2>& points) {
+  const auto& [a, b, c] = surface.corners(t);
+  return std::min({corner_sine(points[a], points[b], points[c]), corner_sine(points[b], points[c], points[a]),
+                   corner_sine(points[c], points[a], points[b])});
 }
 
 class Flattening2D {
@@ -186,16 +196,16 @@ class Flattening2D {
 }  // namespace
 
 void measure_distortion(const space::Background& surface, Flattening& flattening) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  std::vector<double> ratios, factors;
+  std::vector<double> ratios{1}, factors{1};
   flattening.flipped = 0;
   for (Index t = 0; t < surface.triangles(); ++t) {
-    const Map map = map_of(surface, shape_of(surface, t), t, flattening.points);
-    const double larger = map.larger(), smaller = map.smaller();
-    const bool stands = smaller > 0;
-    flattening.flipped += !stands;
-    ratios.push_back(stands ? larger / smaller : kInfinite);
-    factors.push_back(stands ? std::max(larger, 1 / smaller) : kInfinite);
+    const Shape shape = shape_of(surface, t);
+    const Map map = map_of(surface, shape, t, flattening.points);
+    const double larger = map.larger(), smaller = std::max(map.smaller(), kFlat * larger);
+    flattening.flipped += sine_of(surface, t, flattening.points) < kLeastSine;
+    if (shape.tip.imag() <= 1.5 * kLeastHeight * std::abs(shape.tip)) continue;  // has no shape to compare with
+    ratios.push_back(larger / smaller);
+    factors.push_back(std::max(larger, 1 / smaller));
   }
   const auto high = [](std::vector<double>& values) {
     const auto at = values.begin() + std::ptrdiff_t(0.99 * double(values.size() - 1));
@@ -210,6 +220,7 @@ Flattening flatten(const space::Background& surface, std::size_t points) {
   Flattening flattening;
   flattening.points = Flattening2D(surface, points).run();
   measure_distortion(surface, flattening);
+  if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, flattening);
   return flattening;
 }
 
