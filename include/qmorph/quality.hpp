@@ -90,6 +90,8 @@ class QualityAccumulator {
   void add(const QualityAccumulator& other);
 
   Quality result() const;
+  /// Of each quad, in the order in which they were added.
+  std::span<const double> scaled_jacobians() const { return scaled_jacobians_; }
 
  private:
   void add_elements(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,

@@ -193,8 +193,7 @@ std::optional<BadQuad> find_bad_quad(const Patch& patch) {
   if (!is_planar(patch)) {
     Index corner = kNone;
     const Index quad = space::find_bad_quad(patch, corner);
-    if (quad == kNone) return {};
-    return BadQuad{quad, patch.points[corner]};
+    return quad == kNone ? std::nullopt : std::optional(BadQuad{quad, patch.points[corner]});
   }
   const Eigen::Vector3d normal = mean_normal(patch);
   for (Index q = 0; q < patch.quads.size(); ++q)
@@ -213,11 +212,7 @@ std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, Inpu
   if (kept)
     if (Finding defect = find_changed_quad(patch, mesh, rows)) return defect;
 
-  if (!is_planar(patch)) {
-    const auto fault = space::find_fault(patch, mesh, kept ? patch.quads.size() : 0);
-    if (!fault) return {};
-    return Defect{fault->what + " at " + describe(fault->where), fault->where};
-  }
+  if (!is_planar(patch)) return space::find_defect(patch, mesh, kept ? patch.quads.size() : 0);
   const Eigen::Vector3d normal = mean_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);

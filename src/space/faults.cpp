@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/describe.hpp"
 #include "geometry/predicates.hpp"
 #include "space/mesh_normals.hpp"
 #include "space/result.hpp"
@@ -43,6 +44,8 @@ long characteristic(std::size_t nodes, std::span<const std::array<Index, 3>> tri
   return count;
 }
 
+Defect defect_at(const char* what, const Vector3d& p) { return {std::string(what) + " at " + describe(p), p}; }
+
 /// Corner with the smallest sine, if that is too small; else N.
 template <std::size_t N>
 std::size_t bad_corner(const std::array<double, N>& sines) {
@@ -51,17 +54,17 @@ std::size_t bad_corner(const std::array<double, N>& sines) {
 }
 
 template <std::size_t N>
-std::optional<Fault> look_at(const Result& result, Index element, const std::array<Index, N>& nodes) {
+std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes) {
   const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
   const std::size_t corner = bad_corner(result.sines(element, p, nodes));
   if (corner < N && !is_folded_under(result.surface(), p, result.triangle(element)))
-    return Fault{"an element has a corner that is not convex", p[corner]};
+    return defect_at("an element has a corner that is not convex", p[corner]);
   for (std::size_t i = 0; i < N; ++i) {
     const Index row = result.mesh().source[nodes[i]];
     if (row != kNone && result.surface().point(row) == p[i]) continue;
     const double length2 = (p[(i + 1) % N] - p[i]).squaredNorm();
     if (!(result.foot(element, nodes[i]).distance2 <= kOffSurface * kOffSurface * length2))
-      return Fault{"a node has left the surface", p[i]};
+      return defect_at("a node has left the surface", p[i]);
   }
   return {};
 }
@@ -97,16 +100,16 @@ bool is_folded_under(const Background& surface, const Corners<N>& p, Index hint)
 template bool is_folded_under(const Background&, const Corners<3>&, Index);
 template bool is_folded_under(const Background&, const Corners<4>&, Index);
 
-std::optional<Fault> find_fault(const Patch& before, const QuadMesh& after, std::size_t kept) {
+std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept) {
   const Result result(before, after);
   const Index triangles = Index(after.triangles.size());
   for (Index t = 0; t < triangles; ++t)
-    if (auto fault = look_at(result, t, after.triangles[t])) return fault;
+    if (auto defect = look_at(result, t, after.triangles[t])) return defect;
   for (Index q = Index(kept); q < after.quads.size(); ++q)
-    if (auto fault = look_at(result, triangles + q, after.quads[q])) return fault;
+    if (auto defect = look_at(result, triangles + q, after.quads[q])) return defect;
   if (characteristic(before.points.size(), before.triangles, before.quads) !=
       characteristic(after.points.size(), after.triangles, after.quads))
-    return Fault{"a handle or a hole has come or gone", after.points.empty() ? Vector3d::Zero() : after.points[0]};
+    return Defect{"a handle or a hole has come or gone", {}};
   return {};
 }
 

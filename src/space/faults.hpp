@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 
+#include "qmorph/check.hpp"
 #include "qmorph/patch.hpp"
 #include "space/surface_normals.hpp"
 
@@ -19,15 +19,10 @@ bool is_valid_on(const Background& surface, const Corners<N>& p, Index hint);
 template <std::size_t N>
 bool is_folded_under(const Background& surface, const Corners<N>& p, Index hint);
 
-struct Fault {
-  std::string what;
-  Eigen::Vector3d where = Eigen::Vector3d::Zero();
-};
-
 /// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned over (not
 /// those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface, handles or
 /// holes that come or go. Cost: linear.
-std::optional<Fault> find_fault(const Patch& before, const QuadMesh& after, std::size_t kept);
+std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept);
 
 /// A quad of a curved patch that is turned over among its neighbours or has a corner of 180 degrees or more, or kNone; `corner`
 /// gets the node.
