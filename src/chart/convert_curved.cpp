@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/convert_curved.hpp"
 
-#include <Eigen/Geometry>
 #include <utility>
 
 #include "chart/collect.hpp"
@@ -9,6 +8,7 @@
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "quality/size_ratio.hpp"
+#include "space/reference.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -65,27 +65,6 @@ SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vec
   return result;
 }
 
-/// The patch with each quad cut in two, along the diagonal whose halves are more alike in direction, then in size. The halves come
-/// after the triangles that are there, two and two.
-Patch halved(const Patch& patch) {
-  Patch halves = patch;
-  halves.quads.clear();
-  const auto area = [&](Index a, Index b, Index c) {
-    return Eigen::Vector3d((patch.points[b] - patch.points[a]).cross(patch.points[c] - patch.points[a]));
-  };
-  for (const auto& q : patch.quads) {
-    const auto worth = [&](int k) {
-      const Eigen::Vector3d first = area(q[k], q[k + 1], q[k + 2]), second = area(q[k], q[k + 2], q[(k + 3) % 4]);
-      const double smaller = std::min(first.norm(), second.norm());
-      return first.dot(second) < 0 ? -smaller : smaller;
-    };
-    const int k = worth(1) > worth(0) ? 1 : 0;
-    halves.triangles.push_back({q[k], q[k + 1], q[k + 2]});
-    halves.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
-  }
-  return halves;
-}
-
 }  // namespace
 
 SurfaceWork convert_curved(const Patch& patch, const Options& options) {
@@ -93,7 +72,9 @@ SurfaceWork convert_curved(const Patch& patch, const Options& options) {
 }
 
 SurfaceWork improve_curved(const Patch& patch, const Options& options) {
-  const Patch halves = halved(patch);
+  Patch halves = patch;
+  if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
+  halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
   return work_on_curved(patch, halves, regions, options, Task::improve);
 }
