@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/work_on_region.hpp"
 
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "chart/interfaces.hpp"
+#include "chart/topology.hpp"
 #include "chart/windows.hpp"
-#include "kernel/sort_unique.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "space/improve.hpp"
@@ -17,17 +18,6 @@ namespace {
 /// Faces of a chart: larger ones cost more than they are worth.
 constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800};
-
-std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sides) {
-  std::vector<Edge> edges;
-  for (Index side = 0; side < sides.size(); ++side) {
-    if (!sides[side]) continue;
-    const Face& face = mesh.faces[side / 4];
-    edges.emplace_back(std::minmax(face[side % 4], face[next_corner(face, side % 4)]));
-  }
-  sort_unique(edges);
-  return edges;
-}
 
 class Worker {
  public:
@@ -57,11 +47,25 @@ class Worker {
     for (std::size_t side = 0; side < is_interface.size(); ++side)
       if (is_crease[side]) is_interface[side] = false;
     interface_ = edges_on(mesh_, is_interface);
-    straighten(mesh_, opposite_, is_crease, interface_, background());
+    if (!interface_.empty()) straighten_interfaces();
     const std::vector<char> changed = make_parts_even(mesh_, opposite_, division_, creases_, interface_, background());
     for (Index p = 0; p < division_.parts.size(); ++p)
-      if (changed[p] || !interface_.empty())
+      if (changed[p] || !division_.laid_out[p])
         division_.laid_out[p] = std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, division_.parts[p]);
+  }
+
+  void straighten_interfaces() {
+    straighten(mesh_, creases_, interface_, background());
+    opposite_ = opposite_sides(mesh_);
+    division_.is_cut = sides_on(mesh_, interface_);
+    const std::vector<bool> is_crease = sides_on(mesh_, creases_);
+    for (std::size_t side = 0; side < is_crease.size(); ++side)
+      if (is_crease[side]) division_.is_cut[side] = true;
+    std::vector<Index> all(mesh_.faces.size());
+    std::iota(all.begin(), all.end(), 0);
+    division_.parts = components(all, opposite_, division_.is_cut);
+    division_.laid_out.clear();
+    division_.laid_out.resize(division_.parts.size());
   }
 
   void work_on_parts() {

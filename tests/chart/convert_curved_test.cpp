@@ -11,6 +11,7 @@
 #include "chart/fixture.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/error.hpp"
+#include "qmorph/quality.hpp"
 #include "support/invariants.hpp"
 #include "support/on_surface.hpp"
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
 #include "support/invariants.hpp"
 #include "support/surfaces.hpp"
 
