@@ -19,9 +19,10 @@ struct Defect {
 /// Whether the quads of the input have to be in the result: convert() keeps them, improve() does not.
 enum class InputQuads { kept, free };
 
-/// What is wrong with the quads that were made of a planar patch: a boundary or constraint edge that is gone, a fixed node
-/// that has moved, elements that do not fit together, overlap, or have a corner that is not convex, a change of area.
-/// Nothing if nothing is. Cost: linear.
+/// What is wrong with the quads that were made of a patch: a boundary or constraint edge that is gone, a fixed node that has moved,
+/// elements that do not fit together, overlap, or have a corner that is not convex, a change of area; on a curved surface corners
+/// that are turned over (see QualityAccumulator), but where the surface is folded itself, nodes beside it, and holes or
+/// handles that come or go. Nothing if nothing is. Cost: linear.
 std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads = InputQuads::kept);
 
 /// A quad that is inverted, or has a corner of 180 degrees or more.
@@ -32,6 +33,9 @@ struct BadQuad {
 
 /// The first of the patch's own quads that is bad, if there is one.
 std::optional<BadQuad> find_bad_quad(const Patch& patch);
+
+/// Whether all nodes of a patch lie in one plane.
+bool is_planar(const Patch& patch);
 
 /// Unit normal that the elements of a planar patch follow: the direction of the sum of their area vectors.
 Eigen::Vector3d mean_normal(const Patch& patch);

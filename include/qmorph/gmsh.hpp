@@ -6,12 +6,15 @@
 /// own called `gmsh`, no program that says `using namespace qmorph` could write `gmsh::` any more.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "qmorph/certificate.hpp"
 #include "qmorph/error.hpp"
+#include "qmorph/fidelity.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/quality.hpp"
 #include "qmorph/report.hpp"
@@ -36,6 +39,8 @@ struct SurfaceReport {
   std::size_t triangles_in = 0, quads_in = 0;
   std::size_t triangles_out = 0, quads_out = 0;
   Quality quality;              ///< of what came out; all defaults for left
+  Fidelity fidelity;            ///< of a curved surface that was converted
+  std::vector<PoorQuad> poor;   ///< why those of its quads that are poor are so; rows count through the surface's parts
   ConversionReport conversion;  ///< of converted: what was done
   int image_of = 0;  ///< the surface whose quads it has, if it is periodic with one that was converted; else 0
   double seconds = 0;
@@ -45,10 +50,13 @@ struct SurfaceReport {
 struct ModelReport {
   std::vector<SurfaceReport> surfaces;  ///< by tag; surfaces without an element are not listed
   std::vector<std::string> warnings;
-  Quality total;  ///< of the converted and the all-quad surfaces together
+  Quality total;      ///< of the converted and the all-quad surfaces together
+  Fidelity fidelity;  ///< of the converted curved surfaces together
   double read_seconds = 0, convert_seconds = 0, check_seconds = 0, replace_seconds = 0;
 
   std::size_t count(SurfaceOutcome outcome) const;
+  /// Poor quads by what makes them so.
+  std::array<std::size_t, kPoorReasons> count_poor() const;
 };
 
 /// An edge of the mesh that got a node in its middle.

@@ -110,6 +110,8 @@ struct Options {
   /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the end; not if
   /// it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0: never.
   std::size_t part_triangles = 120'000;
+  /// On a curved surface, edges whose triangles meet at a larger angle (radians, between their normals) are kept. 180 degrees: none.
+  double crease_angle = 2 * std::numbers::pi / 9;
   /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
   bool check_each_step = false;
   /// Threads at most; 0: as many as the machine has. The result does not depend on it.

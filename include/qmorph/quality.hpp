@@ -18,7 +18,9 @@
 
 namespace qmorph {
 
+struct Patch;
 struct QuadMesh;
+class Shapes;
 
 /// Figures of one mesh, or of several meshes together (see `QualityAccumulator`). The shape figures are those of the
 /// quads, where nothing else is said; without a quad they keep the values of a square.
@@ -76,19 +78,24 @@ class QualityAccumulator {
            std::span<const std::array<Index, 4>> quads, const Eigen::Vector3d& normal);
 
   /// Adds a surface whose normal is not known: the mean normal if all elements lie in its plane, else (a curved
-  /// surface) for each element its own, so that an element of a curved surface can be a chevron but not upside down.
+  /// surface) each element is judged by the normals of those around it.
   void add(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
            std::span<const std::array<Index, 4>> quads);
+
+  /// Adds what a surface was made into. On a curved surface a corner is turned over if it is against the normals of the input's
+  /// triangles near it, and of the whole element's, and the scaled Jacobian is the least of the corner sines in space.
+  void add(const Patch& before, const QuadMesh& after);
 
   /// Adds the surfaces that another one has collected.
   void add(const QualityAccumulator& other);
 
   Quality result() const;
+  /// Of each quad, in the order in which they were added.
+  std::span<const double> scaled_jacobians() const { return scaled_jacobians_; }
 
  private:
-  struct ElementNormals;
   void add_elements(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
-                    std::span<const std::array<Index, 4>> quads, const ElementNormals& normals);
+                    std::span<const std::array<Index, 4>> quads, const Shapes& shapes);
 
   Quality counts_;
   std::vector<double> scaled_jacobians_;

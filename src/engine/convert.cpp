@@ -1,5 +1,6 @@
 #include "qmorph/convert.hpp"
 
+#include "chart/convert_curved.hpp"
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
@@ -11,7 +12,9 @@ namespace {
 SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
-  const Surface surface(patch);
+  const std::optional<Plane> plane = find_plane(patch);
+  if (!plane) return chart::convert_curved(patch, options);
+  const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   return work_on_regions(surface, options,
                          [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {

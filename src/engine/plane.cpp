@@ -22,10 +22,11 @@ void require_finite(const Patch& patch) {
           {.kind = ErrorKind::not_finite, .subject = node_row(i)});
 }
 
-/// Of the triangles: the box around them, and twice their area as a vector.
+/// Of the triangles: the box around them, twice their area as a vector, and without its direction.
 struct Extent {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   Vector3d area = Vector3d::Zero();
+  double length = 0;
 };
 
 Extent extent_of(const Patch& patch) {
@@ -33,7 +34,9 @@ Extent extent_of(const Patch& patch) {
   for (const auto& t : patch.triangles) {
     const Vector3d &a = patch.points[t[0]], &b = patch.points[t[1]], &c = patch.points[t[2]];
     for (const Vector3d* p : {&a, &b, &c}) extent.low = extent.low.cwiseMin(*p), extent.high = extent.high.cwiseMax(*p);
-    extent.area += (b - a).cross(c - a);
+    const Vector3d area = (b - a).cross(c - a);
+    extent.area += area;
+    extent.length += area.norm();
   }
   return extent;
 }
@@ -59,15 +62,15 @@ Plane axes_for(const Vector3d& normal) {
 
 }  // namespace
 
-Plane fit_plane(const Patch& patch) {
+std::optional<Plane> find_plane(const Patch& patch) {
   require_finite(patch);
   const Extent extent = extent_of(patch);
   const double size = (extent.high - extent.low).norm();
   Vector3d normal = extent.area;
-  if (!(normal.norm() > 0))
-    throw SurfaceError("its triangles have no area in sum, near " + describe(extent.low) +
-                           "; the surface is closed, folded or degenerate",
+  if (!(extent.length > 0))
+    throw SurfaceError("its triangles have no area, near " + describe(extent.low) + "; the surface is degenerate",
                        {.kind = ErrorKind::no_area, .place = extent.low});
+  if (!(normal.norm() > 0)) return {};
   // Noise out of the plane must not tilt a coordinate plane.
   for (int i = 0; i < 3; ++i)
     if (std::abs(normal[i]) < 1e-12 * normal.norm()) normal[i] = 0;
@@ -84,10 +87,7 @@ Plane fit_plane(const Patch& patch) {
   if (std::none_of(patch.points.begin(), patch.points.end(), lies_outside)) return plane;
   for (const auto& t : patch.triangles)
     for (Index v : t)
-      if (lies_outside(patch.points[v]))
-        throw SurfaceError("not planar: the node at " + describe(patch.points[v]) +
-                               " lies outside the plane of the rest; curved surfaces are not supported yet",
-                           {.kind = ErrorKind::not_planar, .place = patch.points[v], .subject = node_row(v)});
+      if (lies_outside(patch.points[v])) return {};
   return plane;
 }
 

@@ -2,6 +2,8 @@
 /// A surface, laid into its plane and cut along its constraints.
 
 #include <Eigen/Geometry>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "geometry/describe.hpp"
@@ -18,14 +20,17 @@ struct Plane {
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
   Eigen::Vector3d normal() const { return axis_u.cross(axis_v); }
   Vec2 to_plane(const Eigen::Vector3d& p) const { return {(p - origin).dot(axis_u), (p - origin).dot(axis_v)}; }
-  Eigen::Vector3d to_space(const Vec2& p) const { return origin + p.x() * axis_u + p.y() * axis_v; }
+  /// Set where the plane is a chart of a curved surface: the point of the surface that a point of the chart stands for.
+  std::function<Eigen::Vector3d(const Vec2&)> curved = {};
+  Eigen::Vector3d to_space(const Vec2& p) const { return curved ? curved(p) : on_plane(p); }
+  Eigen::Vector3d on_plane(const Vec2& p) const { return origin + p.x() * axis_u + p.y() * axis_v; }
 };
 
 /// For errors about a node of a patch.
 inline ErrorSubject node_row(std::size_t row) { return {ErrorSubject::Kind::node, row}; }
 
-/// Plane of the patch. Throws SurfaceError if a coordinate is not finite or the patch is not planar.
-Plane fit_plane(const Patch& patch);
+/// Plane of the patch, if it is planar. Throws SurfaceError if a coordinate is not finite or no triangle has an area.
+std::optional<Plane> find_plane(const Patch& patch);
 
 /// Triangles that are joined through edges that are no constraints, as a manifold with boundary: a node at which
 /// several fans of triangles meet (a slit, a pinched boundary) becomes one vertex for each fan, so that
@@ -40,8 +45,12 @@ struct Region {
   std::size_t boundary_sides = 0;
 };
 
+/// What is done where more than two triangles meet at an edge: in a plane they overlap, in space they are sheets, and parted there.
+enum class EdgesOfMany { refuse, part };
+
 /// The regions' triangles follow one another along a Z-curve.
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
-std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
+std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points,
+                                     EdgesOfMany many = EdgesOfMany::refuse);
 
 }  // namespace qmorph

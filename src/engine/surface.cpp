@@ -39,7 +39,7 @@ SurfaceRecord record_of(const Surface& surface, const Options& options, std::vec
 
 }  // namespace
 
-Surface::Surface(const Patch& surface) : patch(surface), plane(fit_plane(surface)) {
+Surface::Surface(const Patch& surface, const Plane& its_plane) : patch(surface), plane(its_plane) {
   plane_points.reserve(patch.points.size());
   for (const auto& p : patch.points) plane_points.push_back(plane.to_plane(p));
   regions = cut_into_regions(patch, plane_points);

@@ -17,7 +17,7 @@ namespace qmorph {
 /// A surface in its plane, cut into regions. `patch` must outlive it.
 struct Surface {
   /// \throws SurfaceError as convert() does
-  explicit Surface(const Patch& patch);
+  Surface(const Patch& patch, const Plane& plane);
 
   const Patch& patch;
   Plane plane;

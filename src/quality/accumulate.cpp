@@ -6,43 +6,14 @@
 #include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
 #include "quality/percentile.hpp"
+#include "quality/shapes.hpp"
 #include "quality/valence.hpp"
 
 namespace qmorph {
 
 using Eigen::Vector3d;
 
-/// One normal for all elements, or (if `flat` is not set) the one of each element's own area vector.
-struct QualityAccumulator::ElementNormals {
-  bool flat = true;
-  Vector3d common = Vector3d::UnitZ();
-
-  template <std::size_t N>
-  Vector3d of(const std::array<Vector3d, N>& p) const {
-    if (flat) return common;
-    const Vector3d own = area_vector(p);
-    const double length = own.norm();
-    return length > 0 ? Vector3d(own / length) : common;
-  }
-
-  template <std::size_t N>
-  static Vector3d area_vector(const std::array<Vector3d, N>& p) {
-    if constexpr (N == 3) return (p[1] - p[0]).cross(p[2] - p[0]);
-    return (p[2] - p[0]).cross(p[3 % N] - p[1]);
-  }
-};
-
 namespace {
-
-/// A surface is flat if this share of its elements' area vectors is along the mean normal.
-constexpr double kFlatNormals = 1 - 1e-9;
-
-template <std::size_t N>
-std::array<Vector3d, N> corners_of(std::span<const Vector3d> points, const std::array<Index, N>& nodes) {
-  std::array<Vector3d, N> corners;
-  for (std::size_t i = 0; i < N; ++i) corners[i] = points[nodes[i]];
-  return corners;
-}
 
 /// Adds the interior angles of all elements to the angle of each node. A node at which two parts of the surface touch
 /// gets the sum of both parts, as it gets the edges of both. Reflex corners, which no valid element has, count as 360 -
@@ -91,34 +62,26 @@ double percentile(std::vector<double>& values, double percent) {
 }
 
 void QualityAccumulator::add_elements(std::span<const Vector3d> points, std::span<const std::array<Index, 3>> triangles,
-                                      std::span<const std::array<Index, 4>> quads, const ElementNormals& normals) {
-  for (const auto& nodes : triangles) {
-    const auto corners = corners_of(points, nodes);
-    const Vector3d normal = normals.of(corners);
-    if (!(scaled_jacobian(corners, normal) > 0)) ++counts_.inverted;
-    const double metric = thesis_metric(corners, normal);
-    counts_.triangle_metric_min = std::min(counts_.triangle_metric_min, metric);
-    triangle_sum_ += metric;
+                                      std::span<const std::array<Index, 4>> quads, const Shapes& shapes) {
+  for (Index t = 0; t < triangles.size(); ++t) {
+    const ElementShape shape = shapes.triangle(t);
+    if (!(shape.scaled_jacobian > 0)) ++counts_.inverted;
+    counts_.triangle_metric_min = std::min(counts_.triangle_metric_min, shape.thesis_metric);
+    triangle_sum_ += shape.thesis_metric;
   }
   scaled_jacobians_.reserve(scaled_jacobians_.size() + quads.size());
-  for (const auto& nodes : quads) {
-    const auto corners = corners_of(points, nodes);
-    const Vector3d normal = normals.of(corners);
-    const double jacobian = scaled_jacobian(corners, normal);
-    if (!(jacobian > 0)) ++counts_.inverted;
-    scaled_jacobians_.push_back(jacobian);
-
-    const auto angles = corner_angles_deg(corners, normal);
-    const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
-    const double shape = std::max(0.0, 1 - std::max(90 - *smallest, *largest - 90) / 90);
-    const double thesis = thesis_metric(corners, normal);
+  for (Index q = 0; q < quads.size(); ++q) {
+    const ElementShape shape = shapes.quad(q);
+    if (!(shape.scaled_jacobian > 0)) ++counts_.inverted;
+    scaled_jacobians_.push_back(shape.scaled_jacobian);
     const bool first = scaled_jacobians_.size() == 1;
-    counts_.angle_min_deg = first ? *smallest : std::min(counts_.angle_min_deg, *smallest);
-    counts_.angle_max_deg = first ? *largest : std::max(counts_.angle_max_deg, *largest);
-    counts_.eta_min = std::min(counts_.eta_min, shape);
-    counts_.thesis_min = std::min(counts_.thesis_min, thesis);
-    eta_sum_ += shape;
-    thesis_sum_ += thesis;
+    const double smallest = shape.smallest_angle_deg, largest = shape.largest_angle_deg;
+    counts_.angle_min_deg = first ? smallest : std::min(counts_.angle_min_deg, smallest);
+    counts_.angle_max_deg = first ? largest : std::max(counts_.angle_max_deg, largest);
+    counts_.eta_min = std::min(counts_.eta_min, shape.eta);
+    counts_.thesis_min = std::min(counts_.thesis_min, shape.thesis_metric);
+    eta_sum_ += shape.eta;
+    thesis_sum_ += shape.thesis_metric;
   }
   counts_.quads += quads.size();
   counts_.triangles += triangles.size();
@@ -127,28 +90,16 @@ void QualityAccumulator::add_elements(std::span<const Vector3d> points, std::spa
 
 void QualityAccumulator::add(std::span<const Vector3d> points, std::span<const std::array<Index, 3>> triangles,
                              std::span<const std::array<Index, 4>> quads, const Vector3d& normal) {
-  add_elements(points, triangles, quads, {.flat = true, .common = normal});
+  add_elements(points, triangles, quads, Shapes({points, triangles, quads}, normal));
 }
 
 void QualityAccumulator::add(std::span<const Vector3d> points, std::span<const std::array<Index, 3>> triangles,
                              std::span<const std::array<Index, 4>> quads) {
-  std::vector<Vector3d> areas;
-  areas.reserve(triangles.size() + quads.size());
-  for (const auto& nodes : triangles) areas.push_back(ElementNormals::area_vector(corners_of(points, nodes)));
-  for (const auto& nodes : quads) areas.push_back(ElementNormals::area_vector(corners_of(points, nodes)));
+  add_elements(points, triangles, quads, Shapes({points, triangles, quads}));
+}
 
-  Vector3d total = Vector3d::Zero();
-  for (const Vector3d& area : areas) total += area;
-  ElementNormals normals;
-  if (total.norm() > 0) normals.common = total.normalized();
-  double lengths = 0,
-         along = 0;  // an upside-down element of a plane is along its normal all the same
-  for (const Vector3d& area : areas) {
-    lengths += area.norm();
-    along += std::abs(area.dot(normals.common));
-  }
-  normals.flat = along >= kFlatNormals * lengths;
-  add_elements(points, triangles, quads, normals);
+void QualityAccumulator::add(const Patch& before, const QuadMesh& after) {
+  add_elements(after.points, after.triangles, after.quads, Shapes(before, after));
 }
 
 void QualityAccumulator::add(const QualityAccumulator& other) {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "geometry/describe.hpp"
+#include "quality/shapes.hpp"
 #include "quality/sides.hpp"
+#include "space/faults.hpp"
 
 namespace qmorph {
 namespace {
@@ -119,12 +121,22 @@ struct ResultEdges {
   Finding defect;
 };
 
-ResultEdges collect_edges(const QuadMesh& mesh) {
+Edge moved_edge(const std::vector<Index>& rows, Index a, Index b) {
+  return {std::min(rows[a], rows[b]), std::max(rows[a], rows[b])};
+}
+
+/// More than two elements, or two on one side.
+bool is_of_many(std::span<const Side> edge) {
+  return edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward);
+}
+
+/// `of_many`: edges where several sheets met before.
+ResultEdges collect_edges(const QuadMesh& mesh, const std::vector<Edge>& of_many) {
   ResultEdges edges;
   for_each_edge(sorted_sides(mesh.points.size(), mesh.triangles, mesh.quads), [&](std::span<const Side> edge) {
     const Edge ends{edge[0].low, edge[0].high};
     (edge.size() == 1 ? edges.outer : edges.inner).push_back(ends);
-    if (edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward))
+    if (is_of_many(edge) && !std::binary_search(of_many.begin(), of_many.end(), ends))
       edges.defect = at(mesh.points[ends.first], "elements overlap");
   });
   return edges;
@@ -134,18 +146,17 @@ bool has(const std::vector<Edge>& edges, const Edge& edge) {
   return std::binary_search(edges.begin(), edges.end(), edge);
 }
 
-Edge moved_edge(const std::vector<Index>& rows, Index a, Index b) {
-  return {std::min(rows[a], rows[b]), std::max(rows[a], rows[b])};
-}
-
 /// Boundary and constraint edges of the input, and the nodes that they hold in place.
 Finding find_lost_edge(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows) {
-  const ResultEdges edges = collect_edges(mesh);
-  if (edges.defect) return edges.defect;
-  std::vector<Edge> outer;
+  std::vector<Edge> outer, of_many;
   for_each_edge(sorted_sides(patch.points.size(), patch.triangles, patch.quads), [&](std::span<const Side> edge) {
     if (edge.size() == 1) outer.emplace_back(edge[0].low, edge[0].high);
+    if (is_of_many(edge) && rows[edge[0].low] != kNone && rows[edge[0].high] != kNone)
+      of_many.push_back(moved_edge(rows, edge[0].low, edge[0].high));
   });
+  std::sort(of_many.begin(), of_many.end());
+  const ResultEdges edges = collect_edges(mesh, of_many);
+  if (edges.defect) return edges.defect;
   const auto check = [&](Index a, Index b, bool is_outer) -> Finding {
     for (Index node : {a, b})
       if (Finding moved = find_moved_node(patch, mesh, rows, node)) return moved;
@@ -185,7 +196,14 @@ Defect area_defect(double factor) {
 
 Eigen::Vector3d mean_normal(const Patch& patch) { return area_vector(patch).normalized(); }
 
+bool is_planar(const Patch& patch) { return plane_normal(patch).has_value(); }
+
 std::optional<BadQuad> find_bad_quad(const Patch& patch) {
+  if (!is_planar(patch)) {
+    Index corner = kNone;
+    const Index quad = space::find_bad_quad(patch, corner);
+    return quad == kNone ? std::nullopt : std::optional(BadQuad{quad, patch.points[corner]});
+  }
   const Eigen::Vector3d normal = mean_normal(patch);
   for (Index q = 0; q < patch.quads.size(); ++q)
     if (const std::size_t k = bad_corner(patch.points, patch.quads[q], normal); k < 4)
@@ -203,6 +221,7 @@ std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, Inpu
   if (kept)
     if (Finding defect = find_changed_quad(patch, mesh, rows)) return defect;
 
+  if (!is_planar(patch)) return space::find_defect(patch, mesh, kept ? patch.quads.size() : 0);
   const Eigen::Vector3d normal = mean_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);

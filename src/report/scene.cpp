@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "qmorph/quality.hpp"
+#include "quality/shapes.hpp"
 #include "quality/valence.hpp"
 
 namespace qmorph::report {
@@ -38,71 +38,84 @@ class Measurement {
 
   SceneFigures run() {
     for (const SceneEntity& surface : scene_.surfaces) {
-      measure_shapes(surface);
-      measure_nodes(surface);
+      const Local local = localise(surface);
+      measure_shapes(surface, local);
+      measure_nodes(local);
     }
     return std::move(figures_);
   }
 
  private:
-  void measure_shapes(const SceneEntity& surface) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double length = 0;
-    for (std::size_t f = surface.first; f < surface.first + surface.count; ++f) {
-      const Eigen::Vector3d area = area_vector(scene_, f);
-      sum += area, length += area.norm();
-    }
-    const bool planar = sum.norm() > kPlanarShare * length;
-    for (std::size_t f = surface.first; f < surface.first + surface.count; ++f)
-      measure_face(f, (planar ? sum : area_vector(scene_, f)).stableNormalized());
-  }
-
-  void measure_face(std::size_t f, const Eigen::Vector3d& normal) {
-    const auto& n = scene_.faces[f];
-    const Index corners = corners_of(n);
-    double length = 0;
-    for (Index i = 0; i < corners; ++i) length += (scene_.points[n[(i + 1) % corners]] - scene_.points[n[i]]).norm();
-    figures_.size[f] = float(length / corners);
-    if (corners == 3) {
-      const TriangleCorners t{scene_.points[n[0]], scene_.points[n[1]], scene_.points[n[2]]};
-      figures_.scaled_jacobian[f] = float(scaled_jacobian(t, normal));
-      figures_.thesis_metric[f] = float(thesis_metric(t, normal));
-      figures_.eta[f] = std::numeric_limits<float>::quiet_NaN();
-      return;
-    }
-    const QuadCorners q{scene_.points[n[0]], scene_.points[n[1]], scene_.points[n[2]], scene_.points[n[3]]};
-    figures_.scaled_jacobian[f] = float(scaled_jacobian(q, normal));
-    figures_.thesis_metric[f] = float(thesis_metric(q, normal));
-    figures_.eta[f] = float(eta(q, normal));
-  }
-
-  /// Valences and boundary, in a numbering of the surface's own: the cost of many small surfaces stays linear.
-  void measure_nodes(const SceneEntity& surface) {
+  /// A surface in a numbering of its own: the cost of many small surfaces stays linear.
+  struct Local {
     std::vector<Index> nodes;
+    std::vector<Eigen::Vector3d> points;
     std::vector<std::array<Index, 3>> triangles;
     std::vector<std::array<Index, 4>> quads;
-    std::vector<std::pair<Index, Index>> sides;
+    std::vector<std::pair<Index, Index>> sides;  ///< in the scene's numbering
+  };
+
+  Local localise(const SceneEntity& surface) {
+    Local local;
     for (std::size_t f = surface.first; f < surface.first + surface.count; ++f) {
       std::array<Index, 4> own{};
       const Index corners = corners_of(scene_.faces[f]);
       for (Index i = 0; i < corners; ++i) {
         const Index node = scene_.faces[f][i];
-        if (local_[node] == kNone) local_[node] = Index(nodes.size()), nodes.push_back(node);
+        if (local_[node] == kNone) {
+          local_[node] = Index(local.nodes.size());
+          local.nodes.push_back(node);
+          local.points.push_back(scene_.points[node]);
+        }
         own[i] = local_[node];
-        sides.push_back(std::minmax(node, scene_.faces[f][(i + 1) % corners]));
+        local.sides.push_back(std::minmax(node, scene_.faces[f][(i + 1) % corners]));
       }
       if (corners == 3)
-        triangles.push_back({own[0], own[1], own[2]});
+        local.triangles.push_back({own[0], own[1], own[2]});
       else
-        quads.push_back(own);
+        local.quads.push_back(own);
     }
-    if (!quads.empty()) {
-      const NodeDegrees degrees = node_degrees(nodes.size(), triangles, quads);
-      for (Index i = 0; i < nodes.size(); ++i)
-        if (!degrees.boundary[i] && degrees.edges[i] != 4) figures_.irregular.push_back({nodes[i], degrees.edges[i]});
+    for (Index node : local.nodes) local_[node] = kNone;
+    return local;
+  }
+
+  void measure_shapes(const SceneEntity& surface, const Local& local) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double length = 0;
+    for (std::size_t f = surface.first; f < surface.first + surface.count; ++f) {
+      const Eigen::Vector3d area = area_vector(scene_, f);
+      sum += area, length += area.norm();
+      measure_size(f);
     }
-    note_open_edges(std::move(sides));
-    for (Index node : nodes) local_[node] = kNone;
+    const bool planar = sum.norm() > kPlanarShare * length;
+    const SurfaceElements elements{local.points, local.triangles, local.quads};
+    const Shapes shapes = planar ? Shapes(elements, sum.stableNormalized()) : Shapes(elements);
+    Index triangle = 0, quad = 0;
+    for (std::size_t f = surface.first; f < surface.first + surface.count; ++f) {
+      const bool is_quad = corners_of(scene_.faces[f]) == 4;
+      const ElementShape shape = is_quad ? shapes.quad(quad++) : shapes.triangle(triangle++);
+      figures_.scaled_jacobian[f] = float(shape.scaled_jacobian);
+      figures_.thesis_metric[f] = float(shape.thesis_metric);
+      figures_.eta[f] = is_quad ? float(shape.eta) : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+
+  void measure_size(std::size_t f) {
+    const auto& n = scene_.faces[f];
+    const Index corners = corners_of(n);
+    double length = 0;
+    for (Index i = 0; i < corners; ++i) length += (scene_.points[n[(i + 1) % corners]] - scene_.points[n[i]]).norm();
+    figures_.size[f] = float(length / corners);
+  }
+
+  void measure_nodes(const Local& local) {
+    if (!local.quads.empty()) {
+      const NodeDegrees degrees = node_degrees(local.nodes.size(), local.triangles, local.quads);
+      for (Index i = 0; i < local.nodes.size(); ++i)
+        if (!degrees.boundary[i] && degrees.edges[i] != 4)
+          figures_.irregular.push_back({local.nodes[i], degrees.edges[i]});
+    }
+    note_open_edges(local.sides);
   }
 
   void note_open_edges(std::vector<std::pair<Index, Index>> sides) {

@@ -40,6 +40,37 @@ Json quality_json(const Quality& q) {
   return json;
 }
 
+Json spread_json(const Spread& s) {
+  return {{"mean", s.mean}, {"p99", s.p99}, {"max", s.max}, {"where", {s.where.x(), s.where.y(), s.where.z()}}};
+}
+
+/// Of curved surfaces. Distances are in edges.
+Json fidelity_json(const Fidelity& f) {
+  return {
+      {"quads", f.quads},
+      {"distance", {{"node", spread_json(f.node)}, {"side", spread_json(f.side)}, {"centre", spread_json(f.centre)}}},
+      {"distance_back", spread_json(f.back)},
+      {"normal_deg", spread_json(f.normal_deg)},
+      {"warpage_deg", spread_json(f.warpage_deg)}};
+}
+
+/// How many quads under 0.3 there are for each reason.
+Json poor_json(const std::array<std::size_t, kPoorReasons>& counts) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i]) json[std::string(name_of(PoorBecause(i)))] = counts[i];
+  return json;
+}
+
+Json poor_json(const std::vector<PoorQuad>& poor) {
+  Json json = Json::array();
+  for (const PoorQuad& quad : poor)
+    json.push_back({{"because", name_of(quad.reason)},
+                    {"scaled_jacobian", quad.scaled_jacobian},
+                    {"where", {quad.where.x(), quad.where.y(), quad.where.z()}}});
+  return json;
+}
+
 /// A row of the table of stages. Shape figures are those of the quads; `triangle_metric` is that of the triangles.
 Json stage_json(const StageFigures& stage) {
   const Quality q = stage.quality.result();
@@ -120,6 +151,8 @@ Json surface_json(const SurfaceReport& s, const Recorder& recorder) {
   json["after"] = {{"triangles", s.triangles_out}, {"quads", s.quads_out}};
   if (s.outcome != SurfaceOutcome::left) json["quality"] = quality_json(s.quality);
   if (s.outcome == SurfaceOutcome::converted) {
+    if (s.fidelity.quads) json["in_space"] = fidelity_json(s.fidelity);
+    if (!s.poor.empty()) json["poor_quads"] = poor_json(s.poor);
     const History* history = recorder.find(s);
     json["engine"] = engine_json(s.conversion, history ? *history : History());
   }
@@ -143,6 +176,8 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
                      {"write", facts.write_seconds}, {"total", facts.total_seconds}};
   json["warnings"] = model.warnings;
   json["total"] = quality_json(model.total);
+  if (model.fidelity.quads) json["in_space"] = fidelity_json(model.fidelity);
+  json["poor_quads"] = poor_json(model.count_poor());
   const History sum = sum_of(model, recorder);
   json["size_ratio"] = size_json(sum.size_ratios);
   json["stages"] = stages_json(sum.stages);

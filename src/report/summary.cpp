@@ -26,6 +26,24 @@ std::string figures(const Quality& quality) {
                      quality.scaled_jacobian_mean, 100 * quality.irregular_share());
 }
 
+/// "; 3 quads under 0.3, 2 of them forced by the input"
+std::string poor(const ModelReport& model) {
+  const auto counts = model.count_poor();
+  std::size_t all = 0;
+  for (std::size_t count : counts) all += count;
+  if (all == 0) return "";
+  const std::size_t ours = counts[std::size_t(PoorBecause::nothing)];
+  const std::string forced = ours == 0 ? "all" : std::to_string(all - ours) + " of them";
+  return fmt::format("; {} under {:g}, {} forced by the input", counted(all, "quad"), kPoorQuad, forced);
+}
+
+/// "; centres 0.012 edges off the surface (at most 0.11)"
+std::string distance(const Fidelity& fidelity) {
+  if (fidelity.quads == 0) return "";
+  return fmt::format("; centres {:.3f} edges off the surface (at most {:.2f})", fidelity.centre.mean,
+                     fidelity.centre.max);
+}
+
 }  // namespace
 
 std::string surface_line(const SurfaceReport& surface) {
@@ -63,8 +81,9 @@ std::string total_line(const ModelReport& model, const std::string& output, doub
     triangles_out += surface.triangles_out;
     quads_out += surface.quads_out;
   }
-  return fmt::format("total: {} -> {}; {}; {:.2f} s; {}", elements(triangles_in, quads_in),
-                     elements(triangles_out, quads_out), figures(model.total), seconds, output);
+  return fmt::format("total: {} -> {}; {}{}{}; {:.2f} s; {}", elements(triangles_in, quads_in),
+                     elements(triangles_out, quads_out), figures(model.total), distance(model.fidelity), poor(model),
+                     seconds, output);
 }
 
 std::string even_line(const EvenReport& even) {

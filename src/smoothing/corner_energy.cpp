@@ -49,6 +49,12 @@ bool add(Energy& energy, const CornerTerm& c, bool derive) {
   return true;
 }
 
+/// The corners of an element that follow the node. False if one of them is not good.
+bool add(Energy& energy, const StarElement& e, const Vec2& p, bool derive) {
+  return add(energy, {e.q - p, e.r - p, -1, -1}, derive) && add(energy, {e.after_q - e.q, p - e.q, 0, 1}, derive) &&
+         add(energy, {p - e.r, e.before_r - e.r, 1, 0}, derive);
+}
+
 /// Of all corners of the elements around v, as if v were at p.
 Energy corners_around(const Mesh& mesh, Index v, const Vec2& p, bool derive) {
   Energy energy;
@@ -58,9 +64,7 @@ Energy corners_around(const Mesh& mesh, Index v, const Vec2& p, bool derive) {
       const Vec2 &q = mesh.point(mesh.target(h)), &r = mesh.point(mesh.origin(mesh.prev(h)));
       const Vec2 &after_q = mesh.point(mesh.target(mesh.next(h))),
                  &before_r = mesh.point(mesh.origin(mesh.prev(mesh.prev(h))));
-      if (!add(energy, {q - p, r - p, -1, -1}, derive) || !add(energy, {after_q - q, p - q, 0, 1}, derive) ||
-          !add(energy, {p - r, before_r - r, 1, 0}, derive))
-        return energy;
+      if (!add(energy, {q, after_q, before_r, r}, p, derive)) return energy;
     }
     h = mesh.rotate_ccw(h);
   } while (h != mesh.out(v));
@@ -141,6 +145,13 @@ std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
 }
 
 }  // namespace
+
+Energy corner_energy(std::span<const StarElement> elements, const Vec2& p, bool derive) {
+  Energy energy;
+  for (const StarElement& e : elements)
+    if (!add(energy, e, p, derive)) break;
+  return energy;
+}
 
 void raise_worst_corners(Mesh& mesh, const SmoothingOptions& options) {
   constexpr int kRings = 1, kPasses = 8;

@@ -1,8 +1,11 @@
 #pragma once
 /// Raises the worst corners of a neighbourhood together, where the shape energy has done what it can.
 
+#include <span>
+
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
+#include "smoothing/node_energy.hpp"
 
 namespace qmorph::smoothing {
 
@@ -10,5 +13,8 @@ namespace qmorph::smoothing {
 /// for a large p that is nearly the worst one alone, but smooth, so that Newton's steps work where a search on the
 /// minimum sticks in a corner of the function. No corner falls under what the worst one around was.
 void raise_worst_corners(kernel::Mesh& mesh, const SmoothingOptions& options);
+
+/// The sum for elements around a node, if that is at p; with derivatives if `derive`.
+Energy corner_energy(std::span<const StarElement> elements, const Vec2& p, bool derive);
 
 }  // namespace qmorph::smoothing

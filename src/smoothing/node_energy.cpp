@@ -146,31 +146,37 @@ Vec2 clockwise(const Vec2& v) { return {v.y(), -v.x()}; }
 
 }  // namespace
 
+[[gnu::always_inline]] inline void Star::put(std::size_t place, const Vec2& q, const Vec2& after_q, const Vec2& before_r,
+                                             const Vec2& r, Index node, Index opposite) {
+  if (place == 4 * fours_.size()) fours_.emplace_back();
+  FourElements& four = fours_[place / 4];
+  const std::size_t lane = place % 4;
+  four.qx[lane] = q.x(), four.qy[lane] = q.y();
+  four.rx[lane] = r.x(), four.ry[lane] = r.y();
+  four.after_qx[lane] = after_q.x(), four.after_qy[lane] = after_q.y();
+  four.before_rx[lane] = before_r.x(), four.before_ry[lane] = before_r.y();
+  four.node[lane] = node, four.opposite[lane] = opposite;
+}
+
 void Star::look_around(const kernel::Mesh& mesh, Index v) {
   const Index end = mesh.out(v);
   Index h = mesh.face(end) == kNone ? mesh.rotate_ccw(end) : end;  // from here on there are no gaps
   Index node = mesh.target(h);
   std::size_t count = 0;
-  FourElements* four = nullptr;
   do {
     const Index to_v = mesh.prev(h), next_node = mesh.origin(to_v), opposite = mesh.origin(mesh.prev(to_v));
-    const std::size_t lane = count % 4;
-    if (lane == 0) {
-      if (count == 4 * fours_.size()) fours_.emplace_back();
-      four = &fours_[count / 4];
-    }
-    ++count;
     const Vec2 &q = mesh.point(node), &r = mesh.point(next_node), &before_r = mesh.point(opposite);
     const Vec2& after_q = opposite == node ? r : before_r;  // in a triangle
-    four->qx[lane] = q.x(), four->qy[lane] = q.y();
-    four->rx[lane] = r.x(), four->ry[lane] = r.y();
-    four->after_qx[lane] = after_q.x(), four->after_qy[lane] = after_q.y();
-    four->before_rx[lane] = before_r.x(), four->before_ry[lane] = before_r.y();
-    four->node[lane] = node, four->opposite[lane] = opposite;
+    put(count++, q, after_q, before_r, r, node, opposite);
     node = next_node;
     h = kernel::Mesh::twin(to_v);
   } while (h != end);
   count_ = count;
+}
+
+void Star::set(std::span<const StarElement> elements) {
+  count_ = 0;
+  for (const StarElement& e : elements) put(count_++, e.q, e.after_q, e.before_r, e.r, e.node, e.opposite);
 }
 
 template <class Add>

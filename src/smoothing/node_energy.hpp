@@ -6,6 +6,7 @@
 /// [Knupp01]. The sum of mu^2 punishes the worst corners most. It is smooth, so one Newton step each pass is enough.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "geometry/lanes.hpp"
@@ -35,11 +36,19 @@ struct FourElements {
   std::array<Index, 4> opposite;  ///< at before_r
 };
 
+/// An element around a node v, which runs v, q, ..., r; of a triangle after_q is r and before_r is q.
+struct StarElement {
+  Vec2 q, after_q, before_r, r;
+  Index node = kNone, opposite = kNone;  ///< at q and before_r
+};
+
 /// The elements around a node, looked at once, so that the energy at several places costs no walk through the mesh. Of an
 /// element that runs v, q, ..., r the corners at v, q and r depend on v.
 class Star {
  public:
   void look_around(const kernel::Mesh& mesh, Index v);
+  /// These elements instead of those of a mesh.
+  void set(std::span<const StarElement> elements);
   /// Energy of the corners whose shape depends on the node, if that is at p.
   Energy energy_with_derivatives(const Vec2& p) const;
   /// The same, value only.
@@ -53,6 +62,8 @@ class Star {
  private:
   template <class Add>
   Energy sum(const Vec2& p, const Add& add) const;
+  void put(std::size_t place, const Vec2& q, const Vec2& after_q, const Vec2& before_r, const Vec2& r, Index node,
+           Index opposite);
 
   std::vector<FourElements> fours_;  ///< kept to avoid allocations
   std::size_t count_ = 0;            ///< elements

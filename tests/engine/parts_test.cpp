@@ -25,7 +25,7 @@ std::vector<Sample> samples(std::size_t wanted, std::size_t triangles) {
   std::vector<Sample> found;
   for (std::uint64_t seed = 0; found.size() < wanted && seed < 2000; ++seed) {
     const Patch patch = random_domain(seed).patch;
-    const Plane plane = fit_plane(patch);
+    const Plane plane = *find_plane(patch);
     std::vector<Vec2> points;
     for (const auto& p : patch.points) points.push_back(plane.to_plane(p));
     for (const Region& region : cut_into_regions(patch, points)) {

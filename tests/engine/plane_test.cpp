@@ -40,7 +40,7 @@ TEST_CASE("plane: the six coordinate planes are exact, there and back to the bit
   const Vector3d origin(0.1, 1.0 / 3, -7e5);
   for (const auto& [u, v] : {std::pair(kX, kY), {kY, kX}, {kY, kZ}, {kZ, kY}, {kZ, kX}, {kX, kZ}}) {
     const Patch patch = square(origin, u, v);
-    const Plane plane = fit_plane(patch);
+    const Plane plane = *find_plane(patch);
     CHECK(plane.normal() == u.cross(v));
     for (const auto& p : patch.points) CHECK(plane.to_space(plane.to_plane(p)) == p);
   }
@@ -53,7 +53,7 @@ TEST_CASE("plane: a tilted one has unit axes, the normal of its elements, and pa
     const double size = rng.power_of_two(-20, 20);
     const Vector3d u = random().normalized(), v = u.cross(random()).normalized();
     const Patch patch = square(size * 3 * random(), size * u, size * v);
-    const Plane plane = fit_plane(patch);
+    const Plane plane = *find_plane(patch);
     CHECK(plane.axis_u.norm() == doctest::Approx(1));
     CHECK(plane.axis_v.norm() == doctest::Approx(1));
     CHECK(std::abs(plane.axis_u.dot(plane.axis_v)) < 1e-12);
@@ -69,7 +69,7 @@ TEST_CASE("plane: a tilted one has unit axes, the normal of its elements, and pa
 TEST_CASE("plane: a clockwise patch is seen from below, and its result is clockwise") {
   Patch patch = square(Vector3d::Zero(), kX, kY);
   for (auto& t : patch.triangles) std::swap(t[1], t[2]);
-  CHECK(fit_plane(patch).normal() == -kZ);
+  CHECK(find_plane(patch)->normal() == -kZ);
   const QuadMesh result = convert(patch).mesh;
   REQUIRE(result.quads.size() >= 1);
   for (const auto& q : result.quads) {
@@ -81,7 +81,7 @@ TEST_CASE("plane: a clockwise patch is seen from below, and its result is clockw
 TEST_CASE("plane: rounding out of the plane is no tilt") {
   Patch patch = square({0, 0, 2}, kX, kY);
   patch.points[4].z() += 1e-15;
-  const Plane plane = fit_plane(patch);
+  const Plane plane = *find_plane(patch);
   CHECK(plane.axis_u == kX);
   CHECK(plane.axis_v == kY);
 }

@@ -4,7 +4,7 @@
 //   qmorph_campaign --dump SEED PREFIX  writes PREFIX-in.msh and, if the conversion ends, PREFIX-out.msh
 //   qmorph_campaign --shrink SEED PREFIX  the same for a smaller patch that fails in the same way
 //
-// Seeds from 1000000000 on are nasty domains (support/nasty.hpp) instead of random ones.
+// Seeds from 1000000000 on are nasty domains (support/nasty.hpp), those from 2000000000 on surfaces (support/surfaces.hpp).
 //
 // The seeds run in a child process, so that one that crashes or hangs is reported like any other, and the rest goes on.
 // Exit status 0 if nothing failed.
@@ -28,15 +28,17 @@
 #include "support/invariants.hpp"
 #include "support/nasty.hpp"
 #include "support/shrink.hpp"
+#include "support/surfaces.hpp"
 
 namespace {
 
 using namespace qmorph;
 
-/// Seeds from here on are those of nasty domains, numbered from 0 again.
-constexpr std::uint64_t kNasty = 1000000000;
+/// Seeds from here on are those of nasty domains and of curved surfaces, numbered from 0 again.
+constexpr std::uint64_t kNasty = 1000000000, kCurved = 2000000000;
 
 test::Domain domain_of(std::uint64_t seed) {
+  if (seed >= kCurved) return test::random_surface(seed - kCurved);
   return seed < kNasty ? test::random_domain(seed) : test::nasty_domain(seed - kNasty);
 }
 
@@ -67,7 +69,9 @@ Report run_seed(std::uint64_t seed) {
     if (!broken.empty()) problem = broken.front();
     if (broken.empty() || broken.front().rfind("malformed", 0) != 0) {
       const auto& p = domain.patch;
-      const Quality q = measure(mesh, test::area_vector(p.points, p.triangles, p.quads).normalized());
+      const Quality q = seed >= kCurved
+                            ? measure(mesh)
+                            : measure(mesh, test::area_vector(p.points, p.triangles, p.quads).normalized());
       report.quads = q.quads;
       report.interior = q.interior_nodes;
       report.irregular = q.irregular_nodes;

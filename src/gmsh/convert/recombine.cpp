@@ -109,6 +109,7 @@ class Run {
   std::vector<Index> local_;
   std::vector<ConvertedSurface> converted_;
   QualityAccumulator total_, total_before_;
+  FidelityAccumulator fidelity_;
 };
 
 void Run::visit(const std::vector<std::uint32_t>& entities) {
@@ -255,14 +256,23 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   StopWatch watch;
   check(converted);
   QualityAccumulator quality;
+  FidelityAccumulator fidelity;
   report.triangles_out = report.quads_out = 0;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const QuadMesh& result = converted.results[p];
-    quality.add(result.points, result.triangles, result.quads, mean_normal(converted.surface.parts[p].patch));
+    const Patch& patch = converted.surface.parts[p].patch;
+    quality.add(patch, result);
+    fidelity.add(patch, result);
+    for (PoorQuad poor : explain_poor_quads(patch, result, quality.scaled_jacobians().subspan(report.quads_out))) {
+      poor.quad += Index(report.quads_out);
+      report.poor.push_back(poor);
+    }
     report.triangles_out += result.triangles.size();
     report.quads_out += result.quads.size();
   }
   total_.add(quality);
+  fidelity_.add(fidelity);
+  report.fidelity = fidelity.result();
   report.outcome = SurfaceOutcome::converted;
   report.conversion = converted.report;
   report.warnings = converted.surface.warnings;
@@ -323,6 +333,7 @@ void Run::finish() {
     report_.warnings.push_back(
         fmt::format("the mean scaled Jacobian of all quads fell from {:.4f} to {:.4f}, since triangles became quads",
                     before.scaled_jacobian_mean, report_.total.scaled_jacobian_mean));
+  report_.fidelity = fidelity_.result();
   report_.check_seconds += watch.lap();
   restore_periodicity(replace_surfaces(model_.mesh, converted_));
   report_.replace_seconds = watch.lap();
@@ -376,6 +387,13 @@ ModelReport run(Task task, const std::vector<int>& surfaces, const Options& opti
 }
 
 }  // namespace
+
+std::array<std::size_t, kPoorReasons> ModelReport::count_poor() const {
+  std::array<std::size_t, kPoorReasons> counts{};
+  for (const SurfaceReport& surface : surfaces)
+    for (const PoorQuad& poor : surface.poor) ++counts[std::size_t(poor.reason)];
+  return counts;
+}
 
 std::size_t ModelReport::count(SurfaceOutcome outcome) const {
   return static_cast<std::size_t>(std::count_if(surfaces.begin(), surfaces.end(),

@@ -271,8 +271,16 @@ std::string find_bent_corner(const ModelMesh& mesh, const EntityMesh& before, co
     points.push_back(result.points[b]);
     return points;
   };
-  const Eigen::Vector3d normal = mean_normal(part.patch);
+  const bool planar = is_planar(part.patch);
+  const Eigen::Vector3d of_patch = mean_normal(part.patch);
   const auto bent = [&](const auto& element) {
+    Eigen::Vector3d normal = of_patch;
+    if (!planar) {  // the element's own corners say which way is up
+      normal.setZero();
+      const Eigen::Vector3d& p = result.points[element[0]];
+      for (std::size_t k = 2; k < element.size(); ++k)
+        normal += (result.points[element[k - 1]] - p).cross(result.points[element[k]] - p);
+    }
     for (std::size_t k = 0; k < element.size(); ++k) {
       const Index next = element[(k + 1) % element.size()], last = element[(k + element.size() - 1) % element.size()];
       if (is_bent(line(element[k], next), line(element[k], last), normal)) return k;

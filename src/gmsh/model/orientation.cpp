@@ -70,14 +70,10 @@ Orientation orient_where_possible(std::size_t elements, const std::vector<Side>&
 }
 
 Orientation orient(std::size_t elements, const std::vector<Side>& sides) {
-  Orientation result;
+  Orientation result = orient_where_possible(elements, sides);
   for_each_edge(sides, [&](std::span<const Side> edge) {
-    if (edge.size() <= 2 || result.defect) return;
-    result.defect = "it is not a manifold: more than two elements share an edge";
-    result.where = edge[0];
+    if (edge.size() > 2) result.of_many.push_back({edge[0].low, edge[0].high});
   });
-  if (result.defect) return result;
-  result = orient_where_possible(elements, sides);
   if (result.flipped == 0) return result;
 
   for_each_edge(sides, [&](std::span<const Side> edge) {

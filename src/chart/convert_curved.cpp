@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/convert_curved.hpp"
+
+#include <utility>
+
+#include "chart/collect.hpp"
+#include "chart/work_on_region.hpp"
+#include "parallel/for_each.hpp"
+#include "parallel/shared_progress.hpp"
+#include "quality/size_ratio.hpp"
+#include "space/reference.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task) {
+  std::vector<RegionWork> works(regions.size());
+  double total = 0;
+  for (const CurvedRegion& region : regions) total += double(region.region.triangles.size());
+  const parallel::SharedProgress shared(options.progress, total);
+  std::vector<ProgressCallback> progress;
+  for (const CurvedRegion& region : regions) progress.push_back(shared.part(double(region.region.triangles.size())));
+  parallel::for_each_index(regions.size(), [&](std::size_t r) {
+    if (shared.is_over()) return;
+    Options own = options;
+    own.progress = progress[r];
+    works[r] = work_on_region(regions[r], own, task);
+  });
+  shared.finish();
+  return works;
+}
+
+SurfaceRecord record_of(const Patch& patch, const Patch& kept, const std::vector<CurvedRegion>& regions,
+                        const Options& options, std::vector<RegionWork>& works, const QuadMesh& result) {
+  SurfaceRecord record;
+  record.normal.setZero();
+  for (RegionWork& work : works) {
+    for (std::size_t i = 0; i < kStages; ++i) record.seconds[i] += work.seconds[i];
+    for (auto& front : work.fronts) record.fronts.push_back(std::move(front));
+  }
+  if (!wants_stages(options)) return record;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    std::vector<const SurfaceMesh*> meshes;
+    for (const RegionWork& work : works) meshes.push_back(i + 1 == kStages ? &work.mesh : &work.stages[i]);
+    record.stages.push_back(collect(kept, regions, meshes));
+  }
+  record.size_ratios = size_ratios(patch, result);
+  return record;
+}
+
+/// `kept` has those quads of the patch that stay.
+SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vector<CurvedRegion>& regions,
+                           const Options& options, Task task) {
+  std::vector<RegionWork> works = work_on_all(regions, options, task);
+  SurfaceWork result;
+  std::vector<const SurfaceMesh*> meshes;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    meshes.push_back(&works[r].mesh);
+    result.conversion.report.add(works[r].report);
+    ++result.conversion.report.regions;
+    result.conversion.report.odd_regions += regions[r].region.boundary_sides % 2;
+  }
+  result.conversion.mesh = collect(kept, regions, meshes);
+  if (options.observer) result.record = record_of(patch, kept, regions, options, works, result.conversion.mesh);
+  return result;
+}
+
+}  // namespace
+
+SurfaceWork convert_curved(const Patch& patch, const Options& options) {
+  return work_on_curved(patch, patch, curved_regions(patch, options.crease_angle), options, Task::convert);
+}
+
+SurfaceWork improve_curved(const Patch& patch, const Options& options) {
+  Patch halves = patch;
+  if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
+  halves.quads.clear();
+  const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
+  return work_on_curved(patch, halves, regions, options, Task::improve);
+}
+
+}  // namespace qmorph::chart

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <utility>
+
+#include "space/background.hpp"
+
+namespace qmorph::chart {
+
+/// Edges along which two triangles of a surface meet at more than `angle` (radians, between their normals), lower node first, sorted.
+/// Triangles without height have no say.
+std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle);
+
+}  // namespace qmorph::chart

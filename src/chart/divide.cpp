@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/divide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "chart/cutting_plane.hpp"
+#include "chart/local_numbers.hpp"
+#include "chart/opening.hpp"
+#include "chart/topology.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+/// What is larger than this times the size that parts are to have is cut.
+constexpr double kTooLarge = 1.5;
+/// A piece of a part with less than this share of its faces goes to a neighbour.
+constexpr double kCrumb = 0.1;
+/// Quads that are squares in a chart are good quads in space up to this distortion. Parts with few faces may have more: cut again,
+/// they would be all interface.
+constexpr double kMostDistortion = 1.2, kMostOfFew = 2;
+constexpr double kMany = 200, kFew = 30;
+
+double most_distortion(std::size_t faces) {
+  const double few = std::clamp((kMany - double(faces)) / (kMany - kFew), 0.0, 1.0);
+  return kMostDistortion + few * (kMostOfFew - kMostDistortion);
+}
+
+class Dividing {
+ public:
+  Dividing(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most)
+      : mesh_(mesh), opposite_(opposite), most_(double(most)) {
+    division_.is_cut = std::move(is_cut);
+  }
+
+  Division run() {
+    std::vector<Index> all(mesh_.faces.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<std::vector<Index>> waiting = components(all, opposite_, division_.is_cut);
+    std::reverse(waiting.begin(), waiting.end());
+    while (!waiting.empty()) {
+      const std::vector<Index> faces = std::move(waiting.back());
+      waiting.pop_back();
+      std::vector<std::vector<Index>> smaller = settle(faces);
+      std::move(smaller.rbegin(), smaller.rend(), std::back_inserter(waiting));
+    }
+    return std::move(division_);
+  }
+
+ private:
+  bool is_good(const LaidOut& part) const {
+    const Flattening& flattening = part.chart.flattening();
+    return flattening.flipped == 0 && flattening.distortion <= most_distortion(part.piece.faces.size());
+  }
+
+  void accept(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
+    division_.parts.push_back(faces);
+    division_.laid_out.push_back(std::move(part));
+  }
+
+  std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) const {
+    return std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, faces);
+  }
+
+  /// Accepts a part, or cuts it and returns what it falls into.
+  std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
+    const Piece piece(mesh_, opposite_, division_.is_cut, faces);
+    std::unique_ptr<LaidOut> part;
+    if (double(faces.size()) <= kTooLarge * most_ && is_planar_topology(piece)) {
+      part = lay_out(faces);
+      const bool good = is_good(*part);
+      if (!good) part = open(faces, piece);
+      if (part && is_good(*part)) return finish(faces, std::move(part));
+    }
+    auto smaller = cut(faces, piece);
+    if (!smaller.empty()) return smaller;
+    part = lay_out(faces);
+    if (!is_planar_topology(piece) || part->chart.flattening().flipped > 0) {
+      const Eigen::Vector3d& place = mesh_.points[mesh_.faces[faces[0]][0]];
+      throw SurfaceError(
+          "its triangles around " + describe(place) + " cannot be laid flat; mesh the surface anew or repair it",
+          {.kind = ErrorKind::bad_element, .place = place});
+    }
+    accept(faces, std::move(part));
+    return {};
+  }
+
+  void set_cut(Index side, bool cut) { division_.is_cut[side] = division_.is_cut[opposite_[side]] = cut; }
+
+  /// Accepts a part that lies flat, but for tips that have to be cut first.
+  std::vector<std::vector<Index>> finish(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
+    const std::vector<Index> path = path_from_narrow_tip(part->piece, part->chart.flat());
+    if (path.empty()) {
+      accept(faces, std::move(part));
+      return {};
+    }
+    for (Index side : sides_along(part->piece, path)) set_cut(side, true);
+    return components(faces, opposite_, division_.is_cut);
+  }
+
+  /// Cuts along the paths that open the part, until it has a good chart. Null, and nothing is cut, if it never has.
+  std::unique_ptr<LaidOut> open(const std::vector<Index>& faces, const Piece& piece) {
+    std::vector<Index> sides;
+    for (const std::vector<Index>& path : opening_paths(piece)) {
+      for (Index side : sides_along(piece, path)) {
+        set_cut(side, true);
+        sides.push_back(side);
+      }
+      auto part = lay_out(faces);
+      if (is_good(*part)) return part;
+    }
+    for (Index side : sides) set_cut(side, false);
+    return nullptr;
+  }
+
+  std::vector<Index> sides_along(const Piece& piece, const std::vector<Index>& path) const {
+    std::vector<std::pair<Index, Index>> edges;
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) edges.emplace_back(path[k], path[k + 1]);
+    std::sort(edges.begin(), edges.end());
+    std::vector<Index> sides;
+    for (Index side = 0; side < piece.open.size(); ++side) {
+      const Face& face = piece.faces[side / 4];
+      if (side % 4 >= degree(face) || piece.open[side]) continue;
+      const Index a = face[side % 4], b = face[next_corner(face, side % 4)];
+      if (std::binary_search(edges.begin(), edges.end(), std::pair(a, b))) sides.push_back(4 * piece.row[side / 4] + side % 4);
+    }
+    return sides;
+  }
+
+  /// Cuts the part along a plane. Nothing if that leaves it whole.
+  std::vector<std::vector<Index>> cut(const std::vector<Index>& faces, const Piece& piece) {
+    const double parts = std::max(2.0, std::round(double(faces.size()) / most_));
+    const std::vector<char> beyond = sides_of_best_plane(piece, std::floor(parts / 2) / parts);
+    const LocalNumbers local(faces, mesh_.faces.size());
+    std::vector<Index> interface;
+    for (Index f : faces)
+      for (Index side = 4 * f; side < 4 * f + 4; ++side) {
+        const Index other = opposite_[side];
+        if (other == kNone || other < side || division_.is_cut[side]) continue;
+        const Index here = local[f], there = local[other / 4];
+        if (there == kNone || beyond[here] == beyond[there]) continue;
+        interface.push_back(side);
+        set_cut(side, true);
+      }
+    merge_crumbs(faces, interface);
+    auto pieces = components(faces, opposite_, division_.is_cut);
+    if (pieces.size() > 1) return pieces;
+    for (Index side : interface) set_cut(side, false);
+    return {};
+  }
+
+  /// The smallest pieces first.
+  void merge_crumbs(const std::vector<Index>& faces, const std::vector<Index>& interface) {
+    for (bool merged = true; merged;) {
+      merged = false;
+      auto pieces = components(faces, opposite_, division_.is_cut);
+      std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+      const double all = double(faces.size()), crumb = std::max(kCrumb * all, std::min(kFew / 3, all / 5));
+      if (pieces.size() <= 2 || double(pieces[0].size()) >= crumb) return;
+      const LocalNumbers local(faces, mesh_.faces.size());
+      std::vector<Index> of(faces.size(), kNone);
+      for (Index p = 0; p < pieces.size(); ++p)
+        for (Index f : pieces[p]) of[local[f]] = p;
+      std::map<Index, std::vector<Index>> borders;  // of the smallest piece, by what lies beyond
+      for (Index side : interface) {
+        const Index p = of[local[side / 4]], q = of[local[opposite_[side] / 4]];
+        if (division_.is_cut[side] && p != q && (p == 0 || q == 0)) borders[std::max(p, q)].push_back(side);
+      }
+      const auto longest = std::max_element(borders.begin(), borders.end(), [](const auto& a, const auto& b) {
+        return a.second.size() < b.second.size();
+      });
+      if (longest == borders.end()) return;
+      for (Index side : longest->second) set_cut(side, false);
+      merged = true;
+    }
+  }
+
+  const SurfaceMesh& mesh_;
+  const std::vector<Index>& opposite_;
+  const double most_;
+  Division division_;
+};
+
+}  // namespace
+
+Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
+                std::size_t most) {
+  return Dividing(mesh, opposite, std::move(is_cut), most).run();
+}
+
+}  // namespace qmorph::chart

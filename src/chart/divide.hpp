@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Where a region of a curved surface is cut, so that each of its parts can be laid flat.
+
+#include <memory>
+
+#include "chart/chart.hpp"
+
+namespace qmorph::chart {
+
+/// A piece with its chart.
+struct LaidOut {
+  Piece piece;
+  Chart chart;
+  LaidOut(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_cut,
+          const std::vector<Index>& faces)
+      : piece(mesh, opposite, is_cut, faces), chart(piece) {}
+};
+
+struct Division {
+  std::vector<bool> is_cut;  ///< by side of the mesh
+  std::vector<std::vector<Index>> parts;
+  std::vector<std::unique_ptr<LaidOut>> laid_out;  ///< of each part
+};
+
+/// Parts with a good chart and not many more than `most` faces. What a good chart has is not cut: discs that are curved little, annuli
+/// that lie flat. A tube is opened from one end to the other, a cone from its tip to its rim; what is curved more, and what has
+/// handles or no boundary, is cut in two along the shortest plane curve that does it, again and again.
+/// \param is_cut sides that are cut already: creases
+Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
+                std::size_t most);
+
+}  // namespace qmorph::chart

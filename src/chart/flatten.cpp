@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/flatten.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <complex>
+#include <limits>
+
+#include "chart/turn_back.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+using Complex = std::complex<double>;
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// A triangle is taken to be at least this times as high as long: without height it has no direction.
+constexpr double kLeastHeight = 1e-3;
+constexpr int kMostRounds = 30;
+/// Rounds end when one lowers the energy by less than this share of it.
+constexpr double kLeastGain = 0.02;
+/// A triangle with a smaller sine is as bad as one that is turned over.
+constexpr double kLeastSine = 1e-4;
+/// Distortions are no larger than the inverse of this.
+constexpr double kFlat = 1e-3;
+
+/// A triangle in a plane of its own: corners at 0, (base, 0) and `tip`.
+struct Shape {
+  double base = 0;
+  Complex tip;
+  Complex corner(int i) const { return i == 0 ? Complex(0) : i == 1 ? Complex(base) : tip; }
+  Complex side(int i) const { return corner((i + 1) % 3) - corner(i); }
+  double area() const { return 0.5 * base * tip.imag(); }
+};
+
+Shape shape_of(const space::Background& surface, Index t) {
+  const Eigen::Vector3d &a = surface.corner(t, 0), &b = surface.corner(t, 1), &c = surface.corner(t, 2);
+  const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm(), longest = std::max({ab, bc, ca});
+  Shape shape;
+  shape.base = std::max(ab, kLeastHeight * longest);
+  const double along = ab > 0 ? (b - a).dot(c - a) / ab : 0;
+  const double height = ab > 0 ? (b - a).cross(c - a).norm() / ab : 0;
+  shape.tip = {along, std::max(height, kLeastHeight * longest)};
+  return shape;
+}
+
+/// How a triangle got to its place: z -> a z + b conj(z).
+struct Map {
+  Complex a, b;
+  double larger() const { return std::abs(a) + std::abs(b); }
+  double smaller() const { return std::abs(a) - std::abs(b); }  ///< negative if it is turned over
+  Complex rotation() const { return std::abs(a) > 0 ? a / std::abs(a) : Complex(1); }
+};
+
+Map map_of(const Shape& shape, const Complex& p, const Complex& q, const Complex& r) {
+  const Complex along = (q - p) / shape.base;
+  const Complex across = ((r - p) - along * shape.tip.real()) / (Complex(0, 1) * shape.tip.imag());
+  return {0.5 * (along + across), 0.5 * (along - across)};
+}
+
+Complex complex_of(const Vec2& p) { return {p.x(), p.y()}; }
+
+Map map_of(const space::Background& surface, const Shape& shape, Index t, const std::vector<Vec2>& points) {
+  const auto& [a, b, c] = surface.corners(t);
+  return map_of(shape, complex_of(points[a]), complex_of(points[b]), complex_of(points[c]));
+}
+
+double sine_of(const space::Background& surface, Index t, const std::vector<Vec2>& points) {
+  const auto& [a, b, c] = surface.corners(t);
+  return std::min({corner_sine(points[a], points[b], points[c]), corner_sine(points[b], points[c], points[a]),
+                   corner_sine(points[c], points[a], points[b])});
+}
+
+class Flattening2D {
+ public:
+  Flattening2D(const space::Background& surface, std::size_t points)
+      : surface_(surface), points_(points, Vec2::Zero()) {
+    for (Index t = 0; t < surface.triangles(); ++t) shapes_.push_back(shape_of(surface, t));
+    scale();
+    factorise();
+  }
+
+  std::vector<Vec2> run() {
+    unfold();
+    solve();
+    double energy = turn();
+    for (int round = 1; round < kMostRounds; ++round) {
+      solve();
+      const double now = turn();
+      if (!(now < (1 - kLeastGain) * energy)) break;
+      energy = now;
+    }
+    for (Vec2& p : points_) p *= unit_;
+    return std::move(points_);
+  }
+
+ private:
+  /// Lengths in units of a usual side, so that nothing is too large or too small to compute with.
+  void scale() {
+    double area = 0;
+    for (const Shape& shape : shapes_) area += shape.area();
+    unit_ = area > 0 ? std::sqrt(area / double(shapes_.size())) : 1;
+    for (Shape& shape : shapes_) shape.base /= unit_, shape.tip /= unit_;
+  }
+
+  /// Cotangent of the corner across side i.
+  static double cotangent(const Shape& shape, int i) {
+    const Complex at = shape.corner((i + 2) % 3), to = shape.corner(i) - at, other = shape.corner((i + 1) % 3) - at;
+    return (std::conj(to) * other).real() / (2 * shape.area());
+  }
+
+  void factorise() {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(6 * shapes_.size() + 1);
+    for (Index t = 0; t < shapes_.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const double weight = 0.5 * cotangent(shapes_[t], i);
+        const int p = int(surface_.corners(t)[i]), q = int(surface_.corners(t)[(i + 1) % 3]);
+        entries.emplace_back(p, p, weight);
+        entries.emplace_back(q, q, weight);
+        entries.emplace_back(std::max(p, q), std::min(p, q), -weight);
+      }
+    entries.emplace_back(0, 0, 1);  // holds one point
+    Matrix matrix(Eigen::Index(points_.size()), Eigen::Index(points_.size()));
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    solver_.compute(matrix);
+  }
+
+  /// The triangle that is reached last from the boundary.
+  Index middle() const {
+    std::vector<Index> order;
+    std::vector<char> seen(shapes_.size(), 0);
+    const auto reach = [&](Index t) {
+      if (!seen[t]) seen[t] = 1, order.push_back(t);
+    };
+    for (Index side = 0; side < 3 * shapes_.size(); ++side)
+      if (surface_.opposite(side) == kNone) reach(side / 3);
+    for (std::size_t k = 0; k < order.size(); ++k)
+      for (int i = 0; i < 3; ++i)
+        if (const Index other = surface_.neighbour(order[k], i); other != kNone) reach(other);
+    return order.empty() ? 0 : order.back();
+  }
+
+  /// Rotations that lay each triangle beside the one that it is reached from, the middle first.
+  void unfold() {
+    rotations_.assign(shapes_.size(), Complex(0));
+    std::vector<Index> order{middle()};
+    rotations_[order[0]] = 1;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Index t = order[k];
+      for (Index side = 3 * t; side < 3 * t + 3; ++side) {
+        const Index other = surface_.opposite(side);
+        if (other == kNone || rotations_[other / 3] != Complex(0)) continue;
+        const Complex turned = rotations_[t] * shapes_[t].side(side % 3) / -shapes_[other / 3].side(other % 3);
+        rotations_[other / 3] = turned / std::abs(turned);
+        order.push_back(other / 3);
+      }
+    }
+  }
+
+  /// Points for the rotations.
+  void solve() {
+    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(Eigen::Index(points_.size()), 2);
+    for (Index t = 0; t < shapes_.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const Complex pull = 0.5 * cotangent(shapes_[t], i) * rotations_[t] * shapes_[t].side(i);
+        const Index p = surface_.corners(t)[i], q = surface_.corners(t)[(i + 1) % 3];
+        right.row(q) += Eigen::RowVector2d(pull.real(), pull.imag());
+        right.row(p) -= Eigen::RowVector2d(pull.real(), pull.imag());
+      }
+    const Eigen::MatrixX2d solution = solver_.solve(right);
+    for (std::size_t v = 0; v < points_.size(); ++v) points_[v] = solution.row(Eigen::Index(v)).transpose();
+  }
+
+  /// Rotations for the points. Returns what is left between the two.
+  double turn() {
+    double energy = 0;
+    for (Index t = 0; t < shapes_.size(); ++t) {
+      const Map map = map_of(surface_, shapes_[t], t, points_);
+      rotations_[t] = map.rotation();
+      const double off = std::abs(map.a) - 1;
+      energy += shapes_[t].area() * (off * off + std::norm(map.b));
+    }
+    return energy;
+  }
+
+  const space::Background& surface_;
+  std::vector<Shape> shapes_;
+  double unit_ = 1;
+  std::vector<Vec2> points_;
+  std::vector<Complex> rotations_;
+  Eigen::SimplicialLDLT<Matrix> solver_;
+};
+
+}  // namespace
+
+void measure_distortion(const space::Background& surface, Flattening& flattening) {
+  std::vector<double> ratios{1}, factors{1};
+  flattening.flipped = 0;
+  for (Index t = 0; t < surface.triangles(); ++t) {
+    const Shape shape = shape_of(surface, t);
+    const Map map = map_of(surface, shape, t, flattening.points);
+    const double larger = map.larger(), smaller = std::max(map.smaller(), kFlat * larger);
+    flattening.flipped += sine_of(surface, t, flattening.points) < kLeastSine;
+    if (shape.tip.imag() <= 1.5 * kLeastHeight * std::abs(shape.tip)) continue;  // has no shape to compare with
+    ratios.push_back(larger / smaller);
+    factors.push_back(std::max(larger, 1 / smaller));
+  }
+  const auto high = [](std::vector<double>& values) {
+    const auto at = values.begin() + std::ptrdiff_t(0.99 * double(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  flattening.distortion = high(ratios);
+  flattening.scaling = high(factors);
+}
+
+Flattening flatten(const space::Background& surface, std::size_t points) {
+  Flattening flattening;
+  flattening.points = Flattening2D(surface, points).run();
+  measure_distortion(surface, flattening);
+  if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, flattening);
+  return flattening;
+}
+
+}  // namespace qmorph::chart

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Triangles of a surface in the plane, with the lengths and angles that they have in space as far as that is possible.
+
+#include <vector>
+
+#include "geometry/vec2.hpp"
+#include "space/background.hpp"
+
+namespace qmorph::chart {
+
+/// A surface laid flat.
+struct Flattening {
+  std::vector<Vec2> points;  ///< by row of the surface's points
+  /// 99th percentile of the larger over the smaller factor by which a triangle's lengths have changed.
+  double distortion = 1;
+  /// The same of the larger factor by which lengths have grown or shrunk.
+  double scaling = 1;
+  std::size_t flipped = 0;  ///< triangles that are turned over, or have no area
+};
+
+/// As rigid as possible [Liu08]: unfolded from triangle to triangle first, then rotations and points in turn. The surface is one piece
+/// and has a boundary; it may have holes. A cone, a tube that is cut open, a plate are flattened exactly; for what cannot be the
+/// result says how far off it is. Cost: one sparse factorisation, some solves: near linear.
+Flattening flatten(const space::Background& surface, std::size_t points);
+
+/// The distortion of points that were found elsewhere.
+void measure_distortion(const space::Background& surface, Flattening& flattening);
+
+}  // namespace qmorph::chart

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/interfaces.hpp"
+
+#include <algorithm>
+
+#include "chart/local_numbers.hpp"
+#include "chart/thin_out.hpp"
+#include "chart/topology.hpp"
+#include "chart/windows.hpp"
+#include "engine/parts/interface.hpp"
+#include "kernel/sort_unique.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+constexpr WindowSize kStraighteningWindow{9, 4, 1500};
+
+/// Straightens the interfaces in one window. The parts that they part there are numbered for the window alone.
+void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_cut,
+                       const std::vector<Edge>& interface, const Window& window, const space::Background& background) {
+  const Piece& piece = window.laid_out->piece;
+  const Chart& chart = window.laid_out->chart;
+  kernel::Mesh flat = piece.mesh(chart.flat());
+  qmorph::Division division;
+  division.part.assign(flat.face_slots(), 0);
+  const auto sides = components(window.faces, opposite, is_cut);
+  division.parts = Index(sides.size());
+  const LocalNumbers local(window.faces, mesh.faces.size());
+  for (Index s = 0; s < sides.size(); ++s)
+    for (Index f : sides[s]) division.part[local[f]] = s;
+  std::vector<Index> nodes;
+  for (Index h = 0; h < flat.half_edge_slots(); ++h)
+    if (is_among(interface, piece.vertex[flat.origin(h)], piece.vertex[flat.target(h)])) nodes.push_back(flat.origin(h));
+  sort_unique(nodes);
+  straighten_interfaces(flat, division, nodes);
+  const Lifted lifted = lift(flat, piece, chart, background);
+  for (Index v = 0; v < piece.points.size(); ++v) {
+    mesh.points[piece.vertex[v]] = lifted.points[v];
+    mesh.on[piece.vertex[v]] = lifted.on[v];
+  }
+}
+
+void straighten_once(SurfaceMesh& mesh, const std::vector<Edge>& creases, const std::vector<Edge>& interface,
+                     const space::Background& background) {
+  const std::vector<Index> opposite = opposite_sides(mesh);
+  const std::vector<bool> is_crease = sides_on(mesh, creases);
+  std::vector<bool> is_cut = sides_on(mesh, interface);
+  for (std::size_t side = 0; side < is_cut.size(); ++side) is_cut[side] = is_cut[side] || is_crease[side];
+  std::vector<char> waiting(mesh.points.size(), 0);
+  for (const auto& [a, b] : interface) waiting[a] = waiting[b] = 1;
+  while (true) {
+    const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting);
+    if (windows.empty()) return;
+    for (const Window& window : windows)
+      straighten_window(mesh, opposite, is_cut, interface, window, background);
+  }
+}
+
+}  // namespace
+
+bool is_among(const std::vector<Edge>& edges, Index a, Index b) {
+  const Edge edge = std::minmax(a, b);
+  return std::binary_search(edges.begin(), edges.end(), edge);
+}
+
+std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sides) {
+  std::vector<Edge> edges;
+  for (Index side = 0; side < sides.size(); ++side) {
+    if (!sides[side]) continue;
+    const Face& face = mesh.faces[side / 4];
+    edges.emplace_back(std::minmax(face[side % 4], face[next_corner(face, side % 4)]));
+  }
+  sort_unique(edges);
+  return edges;
+}
+
+std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edges) {
+  std::vector<bool> result(4 * mesh.faces.size(), false);
+  std::vector<char> touched(mesh.points.size(), 0);
+  for (const auto& [a, b] : edges) touched[a] = touched[b] = 1;
+  for (Index f = 0; f < mesh.faces.size(); ++f)
+    for (Index i = 0; i < degree(mesh.faces[f]); ++i) {
+      const Index a = mesh.faces[f][i], b = mesh.faces[f][next_corner(mesh.faces[f], i)];
+      if (touched[a] && touched[b] && is_among(edges, a, b)) result[4 * f + i] = true;
+    }
+  return result;
+}
+
+void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
+                const space::Background& background) {
+  if (interface.empty()) return;
+  const std::vector<double> size = mean_edges(mesh);
+  straighten_once(mesh, creases, interface, background);
+  if (thin_out(mesh, size, creases, interface, background)) straighten_once(mesh, creases, interface, background);
+}
+
+}  // namespace qmorph::chart

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/rework.hpp"
+
+#include <algorithm>
+
+namespace qmorph::chart {
+namespace {
+
+void put(const Reworked& work, SurfaceMesh& result) {
+  const Piece& piece = *work.piece;
+  const kernel::Mesh& mesh = work.mesh;
+  std::vector<Index> vertex(mesh.vertex_slots(), kNone);
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+    if (!mesh.is_live_vertex(v)) continue;
+    if (v >= piece.points.size()) {
+      vertex[v] = result.add_point(work.lifted.points[v], work.lifted.on[v]);
+      continue;
+    }
+    vertex[v] = piece.vertex[v];
+    result.points[vertex[v]] = work.lifted.points[v];
+    result.on[vertex[v]] = work.lifted.on[v];
+  }
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f)) continue;
+    Face face{kNone, kNone, kNone, kNone};
+    Index h = mesh.half_edge(f);
+    result.near.push_back(work.lifted.on[mesh.origin(h)]);
+    for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) face[i] = vertex[mesh.origin(h)];
+    for (Index i = 0; i < 4; ++i, h = mesh.next(h)) {
+      const bool is_side = i < mesh.degree(f) && mesh.is_boundary_edge(h);
+      const std::pair<Index, Index> edge = std::minmax(face[i], is_side ? face[next_corner(face, i)] : face[i]);
+      result.open.push_back(is_side && !std::binary_search(piece.seams.begin(), piece.seams.end(), edge));
+    }
+    result.faces.push_back(face);
+  }
+}
+
+}  // namespace
+
+SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces) {
+  std::vector<bool> gone(mesh.faces.size(), false);
+  for (const Reworked& work : pieces)
+    for (Index f : work.piece->row) gone[f] = true;
+  SurfaceMesh result;
+  result.points = mesh.points;
+  result.on = mesh.on;
+  result.fixed = mesh.fixed;
+  result.node = mesh.node;
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    if (gone[f]) continue;
+    result.faces.push_back(mesh.faces[f]);
+    result.near.push_back(mesh.near[f]);
+    for (Index i = 0; i < 4; ++i) result.open.push_back(mesh.open[4 * f + i]);
+  }
+  for (const Reworked& work : pieces) put(work, result);
+  return result;
+}
+
+}  // namespace qmorph::chart

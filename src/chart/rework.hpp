@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "chart/chart.hpp"
+
+namespace qmorph::chart {
+
+/// What a piece of a mesh has become.
+struct Reworked {
+  const Piece* piece = nullptr;
+  kernel::Mesh mesh;
+  Lifted lifted;
+};
+
+/// The mesh with pieces, none of which has a face of another, replaced by what they have become. Vertices keep their numbers; some
+/// are used by no face any more.
+SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces);
+
+}  // namespace qmorph::chart

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/topology.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "chart/local_numbers.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+/// By point: the one that follows on the boundary, or kNone inside.
+std::vector<Index> boundary_steps(const Piece& piece) {
+  std::vector<Index> next(piece.points.size(), kNone);
+  for (Index side = 0; side < piece.open.size(); ++side)
+    if (piece.open[side]) {
+      const Face& face = piece.faces[side / 4];
+      next[face[side % 4]] = face[next_corner(face, side % 4)];
+    }
+  return next;
+}
+
+}  // namespace
+
+std::vector<std::vector<Index>> loops_of(const Piece& piece) {
+  const std::vector<Index> next = boundary_steps(piece);
+  std::vector<char> seen(next.size(), 0);
+  std::vector<std::vector<Index>> loops;
+  for (Index v = 0; v < next.size(); ++v) {
+    if (next[v] == kNone || seen[v]) continue;
+    std::vector<Index>& loop = loops.emplace_back();
+    for (Index w = v; !seen[w]; w = next[w]) seen[w] = 1, loop.push_back(w);
+  }
+  return loops;
+}
+
+int euler_characteristic(const Piece& piece) {
+  std::size_t sides = piece.boundary_sides;
+  for (const Face& face : piece.faces) sides += degree(face);
+  return int(piece.points.size()) - int(sides / 2) + int(piece.faces.size());
+}
+
+bool is_planar_topology(const Piece& piece) {
+  const auto loops = loops_of(piece);
+  return !loops.empty() && euler_characteristic(piece) == 2 - int(loops.size());
+}
+
+std::vector<std::vector<Index>> components(const std::vector<Index>& faces, const std::vector<Index>& opposite,
+                                           const std::vector<bool>& is_cut) {
+  std::vector<Index> sorted = faces;
+  std::sort(sorted.begin(), sorted.end());
+  const LocalNumbers local(sorted, opposite.size() / 4);
+  std::vector<char> seen(sorted.size(), 0);
+  std::vector<std::vector<Index>> result;
+  for (Index first = 0; first < sorted.size(); ++first) {
+    if (seen[first]) continue;
+    seen[first] = 1;
+    std::vector<Index> some{sorted[first]};
+    for (std::size_t k = 0; k < some.size(); ++k)
+      for (Index side = 4 * some[k]; side < 4 * some[k] + 4; ++side) {
+        if (opposite[side] == kNone || is_cut[side]) continue;
+        const Index other = local[opposite[side] / 4];
+        if (other == kNone || seen[other]) continue;
+        seen[other] = 1;
+        some.push_back(sorted[other]);
+      }
+    std::sort(some.begin(), some.end());
+    result.push_back(std::move(some));
+  }
+  return result;
+}
+
+std::vector<double> angle_defects(const Piece& piece) {
+  std::vector<double> defects(piece.points.size(), 2 * std::numbers::pi);
+  for (Index side = 0; side < piece.open.size(); ++side)
+    if (piece.open[side]) defects[piece.faces[side / 4][side % 4]] = std::numbers::pi;
+  for (const auto& t : piece.halves)
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d a = piece.points[t[(i + 1) % 3]] - piece.points[t[i]];
+      const Eigen::Vector3d b = piece.points[t[(i + 2) % 3]] - piece.points[t[i]];
+      defects[t[i]] -= std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  return defects;
+}
+
+}  // namespace qmorph::chart

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "chart/divide.hpp"
+
+namespace qmorph::chart {
+
+/// A disc of faces around some nodes.
+struct Window {
+  std::vector<Index> faces;
+  std::unique_ptr<LaidOut> laid_out;
+};
+
+struct WindowSize {
+  int reach;         ///< faces from the nodes, in steps across sides
+  int margin;        ///< nodes that are so many steps inside are done
+  std::size_t most;  ///< faces of a window
+};
+
+/// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window has them well
+/// inside, or no window can be laid flat around them. Called until it returns nothing, every node has had its window.
+/// \param is_wall sides that no window crosses
+std::vector<Window> take_windows(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
+                                 const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting);
+
+}  // namespace qmorph::chart

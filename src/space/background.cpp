@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/background.hpp"
+
+#include <Eigen/Geometry>
+#include <utility>
+
+#include "space/link_sides.hpp"
+
+namespace qmorph::space {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d unit(const Vector3d& v) {
+  const double length = v.norm();
+  return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
+}
+
+}  // namespace
+
+Background::Background(std::span<const Vector3d> points, std::span<const Triangle> triangles,
+                       std::span<const Edge> barriers)
+    : points_(points), triangles_(triangles) {
+  const auto ends = [&](Index side) {
+    return std::pair(triangles[side / 3][side % 3], triangles[side / 3][(side + 1) % 3]);
+  };
+  opposite_ = link_sides(points.size(), 3 * Background::triangles(), ends, barriers);
+  add_fans();
+}
+
+void Background::add_fans() {
+  std::vector<Vector3d> areas(triangles_.size());
+  normals_.resize(triangles_.size());
+  for (Index t = 0; t < triangles(); ++t) {
+    areas[t] = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+    normals_[t] = unit(areas[t]);
+  }
+  fans_.assign(opposite_.size(), kNone);
+  fan_normals_.reserve(points_.size());
+  for (Index side = 0; side < fans_.size(); ++side) {
+    if (fans_[side] != kNone) continue;
+    Vector3d sum = Vector3d::Zero();
+    for_fan(side, kNone, [&](Index e) {
+      sum += areas[e / 3];
+      fans_[e] = fans();
+    });
+    fan_normals_.push_back(unit(sum));
+  }
+}
+
+Vector3d Background::normal_near(Index t) const {
+  Vector3d sum = 3 * normals_[t];
+  for (int i = 0; i < 3; ++i)
+    if (const Index other = neighbour(t, i); other != kNone) sum += normals_[other];
+  return unit(sum);
+}
+
+Vector3d Background::smooth_normal(Index t, const Vector3d& weights) const {
+  const Vector3d sum =
+      weights[0] * corner_normal(t, 0) + weights[1] * corner_normal(t, 1) + weights[2] * corner_normal(t, 2);
+  const double length = sum.norm();
+  return length > 0 ? Vector3d(sum / length) : normals_[t];
+}
+
+Foot Background::foot_on(Index t, const Vector3d& p) const {
+  return {closest_on_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2)), t};
+}
+
+Foot Background::walk(const Vector3d& p, Index hint) const {
+  constexpr int kMostSteps = 1000;
+  constexpr Index kMostOfFan = 24;  // in a fan of thousands, steps must stay cheap
+  Foot best = foot_on(hint, p);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Index t = best.triangle;
+    const Foot here = best;
+    const auto look_at = [&](Index other) {
+      if (other == t) return;
+      const Foot foot = foot_on(other, p);
+      if (foot.distance2 < best.distance2) best = foot;
+    };
+    // What is nearer to p than its foot is nearer to the foot than twice that distance: across sides that are, and at corners.
+    const double reach2 = 4 * here.distance2;
+    for (int i = 0; i < 3; ++i)
+      if (height2(here, (i + 2) % 3) <= reach2)
+        if (const Index other = neighbour(t, i); other != kNone) look_at(other);
+    if (best.triangle != t) continue;
+    for (Index i = 0; i < 3; ++i)
+      if ((corner(t, int(i)) - here.point).squaredNorm() <= reach2)
+        for_fan(3 * t + i, kMostOfFan, [&](Index side) { look_at(side / 3); });
+    if (best.triangle == t) break;
+  }
+  return best;
+}
+
+/// Squared distance of a foot from the side of its triangle across from corner i; 0 in a triangle without area.
+double Background::height2(const Foot& foot, int i) const {
+  const Vector3d &a = corner(foot.triangle, i), &b = corner(foot.triangle, (i + 1) % 3),
+                 &c = corner(foot.triangle, (i + 2) % 3);
+  const double side2 = (c - b).squaredNorm(), share = foot.weights[i];
+  return side2 > 0 ? share * share * (b - a).cross(c - a).squaredNorm() / side2 : 0;
+}
+
+}  // namespace qmorph::space

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/closest_point.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace qmorph::space {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Weight at b of the point of segment ab closest to p.
+double closest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  return length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+}
+
+OnTriangle closest_on_sides(const Vector3d& p, const std::array<const Vector3d*, 3>& corners) {
+  OnTriangle best;
+  best.distance2 = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double at_j = closest_on_segment(p, *corners[i], *corners[j]);
+    // From the nearer corner, so that a corner is met to the bit.
+    const Vector3d point = at_j <= 0.5 ? Vector3d(*corners[i] + at_j * (*corners[j] - *corners[i]))
+                                       : Vector3d(*corners[j] + (1 - at_j) * (*corners[i] - *corners[j]));
+    const double distance2 = (p - point).squaredNorm();
+    if (!(distance2 < best.distance2)) continue;
+    best = {point, Vector3d::Zero(), distance2};
+    best.weights[i] = 1 - at_j, best.weights[j] = at_j;
+  }
+  return best;
+}
+
+}  // namespace
+
+OnTriangle closest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap), bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();
+  // Inside if the foot on the plane has positive weights; their common divisor is the square of the doubled area.
+  const double at_b = cc * d1 - bc * d2, at_c = bb * d2 - bc * d1, area2 = bb * cc - bc * bc;
+  if (at_b > 0 && at_c > 0 && at_b + at_c < area2) {
+    const double v = at_b / area2, w = at_c / area2;
+    const Vector3d point = a + v * ab + w * ac;
+    return {point, Vector3d(1 - v - w, v, w), (p - point).squaredNorm()};
+  }
+  return closest_on_sides(p, {&a, &b, &c});
+}
+
+}  // namespace qmorph::space

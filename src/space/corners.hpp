@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What it means in space that an element is valid: every corner turns the way the surface does.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace qmorph::space {
+
+template <std::size_t N>
+using Corners = std::array<Eigen::Vector3d, N>;
+
+/// Which way is up for the corners of an element.
+template <std::size_t N>
+struct CornerNormals {
+  Corners<N> at;          ///< of the surface near each corner
+  Eigen::Vector3d whole;  ///< of the element: the mean of these and of the one at its centre
+};
+
+/// Sines of the corners in space. Negative where the corner is turned over: the cross product of its sides points away
+/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by the
+/// first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle.
+/// 0 for a side without length, -1 where a coordinate is NaN.
+template <std::size_t N>
+std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& normals) {
+  std::array<double, N> sines;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Eigen::Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i];
+    const Eigen::Vector3d cross = ahead.cross(behind);
+    const double lengths = std::sqrt(ahead.squaredNorm() * behind.squaredNorm());
+    const double up = std::max(cross.dot(normals.at[i]), cross.dot(normals.whole));
+    const double sine = lengths > 0 ? std::copysign(cross.norm() / lengths, up) : 0;
+    sines[i] = std::isnan(lengths) ? -1 : up == 0 ? 0 : sine;
+  }
+  return sines;
+}
+
+/// The smallest of them.
+template <std::size_t N>
+double scaled_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
+  const auto sines = corner_sines(p, normals);
+  return *std::min_element(sines.begin(), sines.end());
+}
+
+/// Every corner turns so clearly the way that these normals do that others nearby would say the same, too.
+template <std::size_t N>
+bool is_clear(const Corners<N>& p, const CornerNormals<N>& normals) {
+  constexpr double kClear = 0.5;  // cosine between a corner's cross product and the normals
+  const double clear_of_whole = kClear * normals.whole.norm();
+  for (std::size_t i = 0; i < N; ++i) {
+    const Eigen::Vector3d cross = (p[(i + 1) % N] - p[i]).cross(p[(i + N - 1) % N] - p[i]);
+    const double area = cross.norm();
+    if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area))
+      return false;
+  }
+  return true;
+}
+
+/// Interior angles in degrees, from 0 to 360, of corners with these signed sines.
+template <std::size_t N>
+std::array<double, N> corner_angles_deg(const Corners<N>& p, const std::array<double, N>& sines) {
+  std::array<double, N> angles;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Eigen::Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i];
+    const double lengths = std::sqrt(ahead.squaredNorm() * behind.squaredNorm());
+    const double cosine = lengths > 0 ? ahead.dot(behind) / lengths : 1;
+    const double angle = std::atan2(sines[i], cosine + 0.0) * 180 / std::numbers::pi;
+    angles[i] = angle < 0 ? angle + 360 : angle;
+  }
+  return angles;
+}
+
+/// Normal of an element by the areas of its halves; zero if there is none.
+template <std::size_t N>
+Eigen::Vector3d element_normal(const Corners<N>& p) {
+  const Eigen::Vector3d area =
+      (p[2] - p[0]).cross(p[N - 1] - p[1]);  // of a triangle, p[2] - p[1] is as good as p[2] - p[0]
+  const double length = area.norm();
+  return length > 0 ? Eigen::Vector3d(area / length) : Eigen::Vector3d::Zero();
+}
+
+}  // namespace qmorph::space

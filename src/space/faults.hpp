@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "qmorph/check.hpp"
+#include "qmorph/patch.hpp"
+#include "space/surface_normals.hpp"
+
+namespace qmorph::space {
+
+/// All corners are good, by more than what elements in a plane need.
+template <std::size_t N>
+bool is_valid_on(const Background& surface, const Corners<N>& p, Index hint);
+
+/// The surface turns by more than a right angle against its mean normal within the element: there the input is folded, or has
+/// triangles that are bad themselves, and an element may have no way to be good.
+template <std::size_t N>
+bool is_folded_under(const Background& surface, const Corners<N>& p, Index hint);
+
+/// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned over (not
+/// those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface, handles or
+/// holes that come or go. Cost: linear.
+std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept);
+
+/// A quad of a curved patch that is turned over among its neighbours or has a corner of 180 degrees or more, or kNone; `corner`
+/// gets the node.
+Index find_bad_quad(const Patch& patch, Index& corner);
+
+}  // namespace qmorph::space

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/improve.hpp"
+
+#include "engine/regions.hpp"
+#include "qmorph/error.hpp"
+#include "space/faults.hpp"
+#include "space/repair.hpp"
+#include "space/smooth.hpp"
+
+namespace qmorph::space {
+namespace {
+
+std::vector<Background::Edge> barriers(const chart::CurvedRegion& region) {
+  std::vector<Background::Edge> edges = region.barriers;
+  for (const auto& [a, b] : region.creases) edges.push_back({a, b});
+  return edges;
+}
+
+bool is_folded_under(const MeshOnSurface& mesh, Index f) {
+  const chart::Face& face = mesh.mesh().faces[f];
+  const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh.point(face[i]); };
+  const Index hint = mesh.mesh().near[f];
+  return chart::degree(face) == 4 ? is_folded_under<4>(mesh.whole(), {at(0), at(1), at(2), at(3)}, hint)
+                                  : is_folded_under<3>(mesh.whole(), {at(0), at(1), at(2)}, hint);
+}
+
+}  // namespace
+
+chart::SurfaceMesh improve(chart::SurfaceMesh mesh, const std::vector<chart::Edge>& creases,
+                           const chart::CurvedRegion& region, const SmoothingOptions& options) {
+  const Background surface(region.points, region.region.triangles, barriers(region));
+  {
+    MeshOnSurface view(mesh, creases, surface, *region.background);
+    smooth(view, options);
+    raise_poor(view, options);
+    if (find_poor(view, 0).empty()) return mesh;
+  }
+  mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
+  MeshOnSurface view(mesh, creases, surface, *region.background);
+  raise_poor(view, options);
+  for (const PoorFace& poor : find_poor(view, 0))
+    if (!is_folded_under(view, poor.face)) {
+      const Eigen::Vector3d& place = view.point(view.node(4 * poor.face));
+      throw SurfaceError(
+          "no valid element was found at " + describe(place) + "; refine the triangles or the boundary there",
+          {.kind = ErrorKind::no_valid_mesh, .place = place});
+    }
+  return mesh;
+}
+
+}  // namespace qmorph::space

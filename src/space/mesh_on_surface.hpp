@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A mesh on the triangles of a surface whose nodes move: what smoothing and repair in space look at.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "chart/surface_mesh.hpp"
+#include "smoothing/node_energy.hpp"
+#include "space/background.hpp"
+#include "space/corners.hpp"
+
+namespace qmorph::space {
+
+/// The elements around a node, each turned about the node into the tangent plane there: lengths and angles are those in
+/// space, only what an element is bent is lost. The node is at the origin.
+struct UnfoldedStar {
+  std::vector<smoothing::StarElement> elements;
+  Eigen::Vector3d axis_u, axis_v;
+  double edge = 0;  ///< mean length of the edges at the node
+
+  Eigen::Vector3d in_space(const Vec2& p) const { return p.x() * axis_u + p.y() * axis_v; }
+};
+
+class MeshOnSurface {
+ public:
+  using Mesh = chart::SurfaceMesh;
+  using Face = chart::Face;
+
+  /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their nodes stay.
+  /// Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases: who judges a result later
+  /// does not know of them.
+  MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
+                const Background& whole);
+
+  const Mesh& mesh() const { return mesh_; }
+  const Background& surface() const { return surface_; }
+  const Background& whole() const { return whole_; }
+  Index nodes() const { return Index(mesh_.points.size()); }
+  Index faces() const { return Index(mesh_.faces.size()); }
+  /// May move: not fixed, and inside.
+  bool is_free(Index v) const { return is_free_[v]; }
+  const Eigen::Vector3d& point(Index v) const { return mesh_.points[v]; }
+  /// Unit normal of the surface there.
+  const Eigen::Vector3d& normal(Index v) const { return normal_[v]; }
+
+  /// Calls visit(side) for the sides that start at a node, counter-clockwise; none if no face uses it.
+  template <class Visit>
+  void for_sides_around(Index v, const Visit& visit) const {
+    const Index start = first_side_[v];
+    if (start == kNone) return;
+    Index side = start;
+    do {
+      visit(side);
+      side = opposite_[previous(side)];
+    } while (side != kNone && side != start);
+  }
+  Index next(Index side) const { return side - side % 4 + chart::next_corner(mesh_.faces[side / 4], side % 4); }
+  Index previous(Index side) const { return side % 4 ? side - 1 : side + chart::degree(mesh_.faces[side / 4]) - 1; }
+  Index node(Index side) const { return mesh_.faces[side / 4][side % 4]; }
+  Index opposite(Index side) const { return opposite_[side]; }
+
+  /// Smallest corner sine of a face, signed by the surface's normals at its nodes: nearly scaled_jacobian_on(), and cheap.
+  double smallest_sine(Index face) const;
+  /// All corners have larger sines than this, and turn so clearly the way the surface does at the nodes that looking closer is
+  /// not needed.
+  bool is_clearly_above(Index face, double sine) const;
+  /// Of the faces around a node.
+  double smallest_sine_around(Index v) const;
+  /// The one that counts, by the surface's normals near the corners.
+  double exact_sine(Index face) const;
+  double exact_sine_around(Index v) const;
+
+  /// False if an element around is turned so far against the tangent plane that it cannot be laid there.
+  bool unfold(Index v, UnfoldedStar& star) const;
+
+  /// A point of the surface near one of a node's tangent plane.
+  Foot foot(Index v, const Eigen::Vector3d& p) const { return surface_.walk(p, mesh_.on[v]); }
+  void move(Index v, const Foot& foot);
+  /// Where a node is, to bring it back there.
+  struct Place {
+    Eigen::Vector3d point, normal;
+    Index triangle;
+  };
+  Place place(Index v) const { return {mesh_.points[v], normal_[v], mesh_.on[v]}; }
+  void move(Index v, const Place& place) {
+    mesh_.points[v] = place.point, normal_[v] = place.normal, mesh_.on[v] = place.triangle;
+  }
+
+ private:
+  void cut(const std::vector<std::pair<Index, Index>>& creases);
+  void find_places();
+  Eigen::Vector3d centre(Index face) const;
+  Eigen::Vector3d normal_of(Index face) const;
+  template <std::size_t N>
+  Corners<N> corners(const Face& face) const;
+  template <std::size_t N>
+  CornerNormals<N> normals(Index face) const;
+
+  Mesh& mesh_;
+  const Background &surface_, &whole_;
+  std::vector<Index> opposite_;    ///< by side
+  std::vector<Index> first_side_;  ///< by node: the one that has nothing before it, if there is a gap
+  std::vector<char> is_free_;
+  std::vector<char> is_on_crease_;  ///< by node
+  std::vector<Eigen::Vector3d> normal_;
+};
+
+}  // namespace qmorph::space

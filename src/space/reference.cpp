@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/reference.hpp"
+
+#include <Eigen/Geometry>
+
+namespace qmorph::space {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Cosine of the angle between the normals of abc and acd, times their areas; negative where the cut leaves the quad.
+double flatness(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  const Vector3d abc = (b - a).cross(c - a), acd = (c - a).cross(d - a);
+  const double lengths = abc.norm() * acd.norm();
+  return lengths > 0 ? abc.dot(acd) / lengths : -1;
+}
+
+}  // namespace
+
+std::vector<Background::Triangle> Reference::with_halves(const Patch& patch) {
+  if (patch.quads.empty()) return {};
+  std::vector<Background::Triangle> triangles = patch.triangles;
+  triangles.reserve(patch.triangles.size() + 2 * patch.quads.size());
+  for (const auto& [a, b, c, d] : patch.quads) {
+    const Vector3d &pa = patch.points[a], &pb = patch.points[b], &pc = patch.points[c], &pd = patch.points[d];
+    if (flatness(pa, pb, pc, pd) >= flatness(pb, pc, pd, pa)) {
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    } else {
+      triangles.push_back({b, c, d});
+      triangles.push_back({b, d, a});
+    }
+  }
+  return triangles;
+}
+
+}  // namespace qmorph::space

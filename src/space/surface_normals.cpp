@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/surface_normals.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "space/triangle_tree.hpp"
+
+namespace qmorph::space {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d unit(const Vector3d& v) {
+  const double length = v.norm();
+  return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
+}
+
+template <std::size_t N>
+Vector3d centre_of(const Corners<N>& p) {
+  Vector3d sum = p[0];
+  for (std::size_t i = 1; i < N; ++i) sum += p[i];
+  return sum / double(N);
+}
+
+/// A side of the surface where it parts. Whichever way it runs: an element that is turned over is to be found on its own side.
+struct OpenSide {
+  Index low, high, triangle;
+};
+
+/// In the order of their ends.
+std::vector<OpenSide> open_sides(const Background& surface) {
+  std::vector<OpenSide> sides;
+  for (Index t = 0; t < surface.triangles(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (surface.neighbour(t, i) != kNone) continue;
+      const auto [low, high] = std::minmax(surface.corners(t)[i], surface.corners(t)[(i + 1) % 3]);
+      sides.push_back({low, high, t});
+    }
+  std::sort(sides.begin(), sides.end(), [](const OpenSide& a, const OpenSide& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return sides;
+}
+
+class Search {
+ public:
+  Search(const ElementsOnSurface& mesh, const ElementSides& sides)
+      : mesh_(mesh), sides_(sides), found_(sides.elements(), kNone) {}
+
+  std::vector<Index> run() {
+    if (mesh_.surface.triangles() == 0) return std::move(found_);
+    start_at_open_sides();
+    spread();
+    std::optional<TriangleTree> tree;
+    for (Index e = 0; e < found_.size(); ++e) {
+      if (found_[e] != kNone) continue;
+      if (!tree) tree.emplace(mesh_.surface.points(), mesh_.surface.all_corners());
+      found_[e] = tree->closest(centre(e)).triangle;
+      if (found_[e] == kNone) found_[e] = 0;  // NaN
+      queue_.push_back(e);
+      spread();
+    }
+    return std::move(found_);
+  }
+
+ private:
+  Vector3d centre(Index e) const {
+    Vector3d sum = Vector3d::Zero();
+    for (Index i = 0; i < sides_.degree(e); ++i) sum += mesh_.points[sides_.node(4 * e + i)];
+    return sum / double(sides_.degree(e));
+  }
+
+  void start_at_open_sides() {
+    if (mesh_.source.empty()) return;
+    const std::vector<OpenSide> open = open_sides(mesh_.surface);
+    for (Index side = 0; side < sides_.slots(); ++side) {
+      const Index e = side / 4;
+      if (sides_.node(side) == kNone || sides_.opposite(side) != kNone || found_[e] != kNone) continue;
+      const Index a = mesh_.source[sides_.node(side)], b = mesh_.source[sides_.target(side)];
+      if (a == kNone || b == kNone) continue;
+      const OpenSide key{std::min(a, b), std::max(a, b), 0};
+      const auto before = [](const OpenSide& x, const OpenSide& y) {
+        return std::tie(x.low, x.high) < std::tie(y.low, y.high);
+      };
+      const auto [first, last] = std::equal_range(open.begin(), open.end(), key, before);
+      Foot best;
+      for (auto it = first; it != last; ++it) {
+        const Foot foot = mesh_.surface.walk(centre(e), it->triangle);
+        if (best.triangle == kNone || foot.distance2 < best.distance2) best = foot;
+      }
+      if (best.triangle == kNone) continue;
+      found_[e] = best.triangle;
+      queue_.push_back(e);
+    }
+  }
+
+  /// From the elements in the queue to all that are joined to them.
+  void spread() {
+    for (std::size_t done = 0; done < queue_.size(); ++done)
+      for (Index side = 4 * queue_[done]; side < 4 * queue_[done] + 4; ++side) {
+        if (sides_.opposite(side) == kNone) continue;
+        const Index other = sides_.opposite(side) / 4;
+        if (found_[other] != kNone) continue;
+        found_[other] = mesh_.surface.walk(centre(other), found_[side / 4]).triangle;
+        queue_.push_back(other);
+      }
+    queue_.clear();
+  }
+
+  const ElementsOnSurface& mesh_;
+  const ElementSides& sides_;
+  std::vector<Index> found_;  ///< by element
+  std::vector<Index> queue_;
+};
+
+}  // namespace
+
+template <std::size_t N>
+CornerNormals<N> normals_on(const Background& surface, const Corners<N>& p, Index hint) {
+  constexpr double kToCentre = 0.25;
+  const Vector3d centre = centre_of(p);
+  const Index middle = surface.walk(centre, hint).triangle;
+  CornerNormals<N> normals;
+  normals.whole = surface.normal_near(middle);
+  for (std::size_t i = 0; i < N; ++i) {
+    normals.at[i] = surface.normal_near(surface.walk(p[i] + kToCentre * (centre - p[i]), middle).triangle);
+    normals.whole += normals.at[i];
+  }
+  normals.whole = unit(normals.whole);
+  return normals;
+}
+
+template CornerNormals<3> normals_on(const Background&, const Corners<3>&, Index);
+template CornerNormals<4> normals_on(const Background&, const Corners<4>&, Index);
+
+std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides) {
+  return Search(mesh, sides).run();
+}
+
+}  // namespace qmorph::space

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Curved surfaces of all kinds, from triangles to quads.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "chart/creases.hpp"
+#include "chart/fixture.hpp"
+#include "qmorph/convert.hpp"
+#include "qmorph/error.hpp"
+#include "qmorph/quality.hpp"
+#include "support/invariants.hpp"
+#include "support/on_surface.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Share of nodes off the boundary that do not have four edges.
+double irregular_share(const QuadMesh& mesh) {
+  const Quality quality = measure(mesh);
+  return quality.irregular_share();
+}
+
+void check(const Patch& patch, const QuadMesh& mesh) {
+  for (const std::string& line : broken_invariants(patch, mesh)) FAIL_CHECK(line);
+}
+
+bool same_bytes(const QuadMesh& a, const QuadMesh& b) {
+  return a.quads == b.quads && a.triangles == b.triangles && a.source == b.source && a.points.size() == b.points.size() &&
+         std::memcmp(a.points.data(), b.points.data(), sizeof(Vector3d) * a.points.size()) == 0;
+}
+
+Patch cone(int around, int rows, double slope) {  // tip first, no line
+  Patch patch;
+  patch.points.emplace_back(0, 0, 0);
+  for (int r = 1; r <= rows; ++r)
+    for (int k = 0; k < around * r; ++k) {
+      const double angle = 2 * std::numbers::pi * k / (around * r);
+      patch.points.emplace_back(r * std::cos(angle), r * std::sin(angle), -slope * r);
+    }
+  const auto node = [&](int r, int k) {
+    return r == 0 ? Index(0) : Index(1 + around * (r * (r - 1)) / 2 + k % (around * r));
+  };
+  for (int r = 0; r < rows; ++r)
+    for (int sector = 0; sector < around; ++sector)
+      for (int k = 0; k <= r; ++k) {
+        const int in = sector * r + k, out = sector * (r + 1) + k;
+        patch.triangles.push_back({node(r, in), node(r + 1, out), node(r + 1, out + 1)});
+        if (k < r) patch.triangles.push_back({node(r, in), node(r + 1, out + 1), node(r, in + 1)});
+      }
+  return patch;
+}
+
+}  // namespace
+
+TEST_CASE("curved: closed surfaces without a line become quads alone") {
+  Rng rng(20);
+  struct Case {
+    const char* name;
+    Patch patch;
+    int euler;
+    double most_irregular;
+  };
+  for (const Case& c : {Case{"sphere", sphere(0.11, rng), 2, 0.04}, Case{"torus", torus(1, 0.35, 0.1, rng), 0, 0.05},
+                        Case{"double torus", double_torus(0.11, rng), -2, 0.06}}) {
+    CAPTURE(c.name);
+    const QuadMesh mesh = convert(c.patch).mesh;
+    CHECK(mesh.triangles.empty());
+    CHECK(euler_characteristic(mesh.triangles, mesh.quads) == c.euler);
+    CHECK(irregular_share(mesh) < c.most_irregular);
+    CHECK(measure(mesh).scaled_jacobian_mean > 0.93);
+    check(c.patch, mesh);
+  }
+}
+
+TEST_CASE("curved: the same bytes on one thread and two, and when it is called again") {
+  Rng rng(21);
+  for (const Patch& patch : {torus(1, 0.35, 0.15, rng), pierced(sphere(0.12, rng), {0, 0, 1}, 0.4), box({1, 1, 2}, 0.2, rng)}) {
+    Options options;
+    options.threads = 1;
+    const QuadMesh first = convert(patch, options).mesh;
+    options.threads = 2;
+    CHECK(same_bytes(first, convert(patch, options).mesh));
+    CHECK(same_bytes(first, convert(patch, options).mesh));
+  }
+}
+
+TEST_CASE("curved: a cone keeps its tip, wide or pointed") {
+  for (const double slope : {0.3, 1.0, 4.0}) {
+    CAPTURE(slope);
+    const Patch patch = cone(6, 9, slope);
+    const QuadMesh mesh = convert(patch).mesh;
+    check(patch, mesh);
+    CHECK(mesh.triangles.empty());
+    if (slope >= 1) CHECK(std::find(mesh.source.begin(), mesh.source.end(), Index(0)) != mesh.source.end());
+    CHECK(measure(mesh).scaled_jacobian_min > (slope > 2 ? 0.2 : 0.5));
+  }
+}
+
+TEST_CASE("curved: a pole where a line ends is a node like others") {
+  // A sphere with a line from pole to pole, as periodic parametrisations have it.
+  const int around = 24, rows = 12;
+  Patch patch;
+  patch.points.emplace_back(0, 0, 1);
+  for (int r = 1; r < rows; ++r)
+    for (int k = 0; k < around; ++k) {
+      const double a = std::numbers::pi * r / rows, b = 2 * std::numbers::pi * k / around;
+      patch.points.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
+    }
+  patch.points.emplace_back(0, 0, -1);
+  const Index south = Index(patch.points.size() - 1);
+  const auto node = [&](int r, int k) { return Index(1 + (r - 1) * around + k % around); };
+  for (int k = 0; k < around; ++k) {
+    patch.triangles.push_back({0, node(1, k), node(1, k + 1)});
+    patch.triangles.push_back({south, node(rows - 1, k + 1), node(rows - 1, k)});
+    for (int r = 1; r < rows - 1; ++r) {
+      patch.triangles.push_back({node(r, k), node(r + 1, k), node(r + 1, k + 1)});
+      patch.triangles.push_back({node(r, k), node(r + 1, k + 1), node(r, k + 1)});
+    }
+  }
+  patch.constraints.push_back({0, node(1, 0)});
+  for (int r = 1; r < rows - 1; ++r) patch.constraints.push_back({node(r, 0), node(r + 1, 0)});
+  patch.constraints.push_back({node(rows - 1, 0), south});
+  const QuadMesh mesh = convert(patch).mesh;
+  check(patch, mesh);
+  CHECK(mesh.triangles.empty());
+  CHECK(measure(mesh).scaled_jacobian_min > 0.3);
+}
+
+TEST_CASE("curved: sharp edges stay, whole or with a node in their middle") {
+  Rng rng(22);
+  const Patch patch = box({1, 1.5, 2}, 0.22, rng);
+  const QuadMesh mesh = convert(patch).mesh;
+  check(patch, mesh);
+  CHECK(mesh.triangles.empty());
+  const space::Background surface(patch.points, patch.triangles);
+  std::set<std::pair<Index, Index>> edges;
+  for (const auto& q : mesh.quads)
+    for (int i = 0; i < 4; ++i) edges.insert(std::minmax(q[i], q[(i + 1) % 4]));
+  std::vector<Index> row(patch.points.size(), kNone);
+  for (Index v = 0; v < mesh.source.size(); ++v)
+    if (mesh.source[v] != kNone) row[mesh.source[v]] = v;
+  int whole = 0, split = 0;
+  for (const auto& [a, b] : chart::find_creases(surface, 0.7)) {
+    REQUIRE(row[a] != kNone);
+    REQUIRE(row[b] != kNone);
+    CHECK(mesh.points[row[a]] == patch.points[a]);
+    if (edges.contains(std::minmax(row[a], row[b]))) {
+      ++whole;
+      continue;
+    }
+    const Vector3d middle = 0.5 * (patch.points[a] + patch.points[b]);
+    bool found = false;
+    for (Index m = 0; m < mesh.points.size() && !found; ++m)
+      found = (mesh.points[m] - middle).norm() < 1e-9 && edges.contains(std::minmax(row[a], m)) &&
+              edges.contains(std::minmax(row[b], m));
+    CHECK(found);
+    ++split;
+  }
+  CHECK(whole > 0);
+  CHECK(split <= 5);  // six faces
+}
+
+TEST_CASE("curved: a plate that is off its plane by a file's rounding is what it is in the plane") {
+  Rng rng(23);
+  const Patch plane = pierced(plate(24, 16), {12, 8, 0}, 4);
+  for (const double noise : {1e-4, 1e-3, 0.02}) {
+    CAPTURE(noise);
+    Patch patch = plane;
+    for (Vector3d& p : patch.points) p.z() += noise * rng.between(-1, 1);
+    const QuadMesh mesh = convert(patch).mesh, flat = convert(plane).mesh;
+    check(patch, mesh);
+    CHECK(mesh.triangles.empty());
+    CHECK(double(mesh.quads.size()) == doctest::Approx(double(flat.quads.size())).epsilon(0.08));
+    CHECK(measure(mesh).scaled_jacobian_mean > measure(flat).scaled_jacobian_mean - 0.02);
+  }
+}
+
+TEST_CASE("curved: coarse surfaces of few triangles") {
+  Rng rng(24);
+  for (const Patch& patch : {box({1, 1, 1}, 1, rng), sphere(1.2, rng), sphere(0.5, rng), tube(1, 0.3, 0.6, 0, rng),
+                             cone(3, 1, 1), cone(6, 2, 1)}) {
+    CAPTURE(patch.triangles.size());
+    const QuadMesh mesh = convert(patch).mesh;
+    check(patch, mesh);
+  }
+}
+
+TEST_CASE("curved: an odd boundary leaves one triangle, and creases change nothing about that") {
+  Rng rng(25);
+  for (int k = 0; k < 6; ++k) {
+    Patch patch = pierced(k % 2 ? sphere(0.15, rng) : box({1, 1, 1}, 0.2, rng), {0, 0, 1}, 0.3 + 0.05 * k);
+    const RegionCount count = count_regions(patch);
+    const QuadMesh mesh = convert(patch).mesh;
+    check(patch, mesh);
+    CHECK(mesh.triangles.size() == count.odd);
+  }
+}
+
+TEST_CASE("curved: what has no two sides is refused by name") {
+  // A Moebius strip.
+  const int n = 24;
+  Patch patch;
+  for (int k = 0; k < n; ++k)
+    for (int side = -1; side <= 1; ++side) {
+      const double a = 2 * std::numbers::pi * k / n;
+      const double r = 1 + 0.25 * side * std::cos(a / 2);
+      patch.points.emplace_back(r * std::cos(a), r * std::sin(a), 0.25 * side * std::sin(a / 2));
+    }
+  const auto node = [&](int k, int side) { return Index(3 * (k % n) + (k == n ? 1 - side : 1 + side)); };
+  for (int k = 0; k < n; ++k)
+    for (int side = -1; side <= 0; ++side) {
+      patch.triangles.push_back({node(k, side), node(k + 1, side), node(k + 1, side + 1)});
+      patch.triangles.push_back({node(k, side), node(k + 1, side + 1), node(k, side + 1)});
+    }
+  CHECK_THROWS_AS(convert(patch), SurfaceError);
+}

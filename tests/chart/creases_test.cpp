@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Sharp edges, and bends that are only coarse.
+#include "chart/creases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+#include "chart/fixture.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::vector<std::pair<Index, Index>> creases(const Patch& patch, double degrees = 40) {
+  const space::Background surface(patch.points, patch.triangles);
+  return chart::find_creases(surface, degrees * kDegree);
+}
+
+/// Strips of unit squares side by side, turned by these angles (degrees) one against the other.
+Patch folded(const std::vector<double>& turns, int rows = 6) {
+  const int strips = int(turns.size()) + 1;
+  Patch patch = plate(strips, rows);
+  std::vector<Vector3d> across{Vector3d::Zero()};
+  double angle = 0;
+  for (int i = 0; i < strips; ++i) {
+    across.push_back(across.back() + Vector3d(std::cos(angle), 0, std::sin(angle)));
+    if (i < int(turns.size())) angle += turns[i] * kDegree;
+  }
+  for (Vector3d& p : patch.points) p = across[std::size_t(p.x())] + Vector3d(0, p.y(), 0);
+  return patch;
+}
+
+}  // namespace
+
+TEST_CASE("creases: the edges of a box, and no others") {
+  Rng rng(5);
+  const Patch patch = box({1, 1.5, 2}, 0.25, rng);
+  const auto found = creases(patch);
+  std::set<std::pair<Index, Index>> wanted;
+  const auto faces_at = [&](Index v) {  // bits of the faces that a node lies on
+    int bits = 0;
+    const Vector3d high(1, 1.5, 2);
+    for (int k = 0; k < 3; ++k) {
+      if (patch.points[v][k] == 0) bits |= 1 << (2 * k);
+      if (patch.points[v][k] == high[k]) bits |= 2 << (2 * k);
+    }
+    return bits;
+  };
+  for (const auto& t : patch.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3];
+      if (std::popcount(unsigned(faces_at(a) & faces_at(b))) == 2) wanted.insert(std::minmax(a, b));
+    }
+  CHECK(std::set(found.begin(), found.end()) == wanted);
+  CHECK(creases(patch, 91).empty());
+  CHECK(creases(patch, 180).empty());
+}
+
+TEST_CASE("creases: a fold between planes is one, up to where the angle says") {
+  CHECK(creases(folded({0, 0, 45, 0, 0})).size() == 6);
+  CHECK(creases(folded({0, 0, 39, 0, 0})).empty());
+  CHECK(creases(folded({0, 0, 39, 0, 0}), 30).size() == 6);
+  CHECK(creases(folded({0, 0, -60, 0, 0})).size() == 6);
+  CHECK(creases(folded({0, 0, 120, 0, 0})).size() == 6);
+  CHECK(creases(folded({0, 50, 0, -50, 0})).size() == 12);
+}
+
+TEST_CASE("creases: the sides of a coarse bend are none") {
+  CHECK(creases(folded({45, 45, 45, 45, 45, 45})).empty());
+  CHECK(creases(folded({0, 22.5, 45, 22.5, 0})).empty());
+  Rng rng(2);
+  for (const double radius : {0.4, 0.6}) CHECK(creases(tube(4, radius, 0.5, 0, rng)).empty());
+  CHECK(creases(sphere(1, rng)).empty());
+}
+
+TEST_CASE("creases: a triangle without height does not decide") {
+  Patch patch = plate(4, 4);
+  patch.points[12] = {2.9999, 2, 0.0005};  // its neighbour on one side is a needle that stands on end
+  CHECK(creases(patch, 60).empty());
+}

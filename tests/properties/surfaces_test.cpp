@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The laws of the engine on random curved surfaces. Re-run one seed with: qmorph_campaign 2000000000+SEED 2000000000+SEED
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
+#include "support/invariants.hpp"
+#include "support/surfaces.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+
+namespace {
+
+/// How many seeds a law is tried on: `usual`, or fewer or more when QMORPH_DOMAINS is not 1000, in proportion.
+std::uint64_t seeds(std::uint64_t usual) {
+  const char* text = std::getenv("QMORPH_DOMAINS");
+  return text ? std::max<std::uint64_t>(1, usual * std::strtoull(text, nullptr, 10) / 1000) : usual;
+}
+
+Options options_for(std::uint64_t seed) {
+  Options options;
+  if (seed % 10 != 0) options.retry_triangles = 0;  // tries with other constants take most of the time
+  return options;
+}
+
+/// Figures of several meshes together.
+struct Pool {
+  std::size_t quads = 0, triangles = 0, interior = 0, irregular = 0;
+  double sum = 0;
+  void add(const QuadMesh& mesh) {
+    const Quality quality = measure(mesh);
+    quads += quality.quads, triangles += quality.triangles;
+    interior += quality.interior_nodes, irregular += quality.irregular_nodes;
+    sum += quality.scaled_jacobian_mean * double(quality.quads);
+  }
+  double mean() const { return sum / double(quads); }
+  double share() const { return double(irregular) / double(interior); }
+};
+
+}  // namespace
+
+TEST_CASE("1000 random surfaces convert without breaking an invariant") {
+  for (std::uint64_t seed = 0; seed < seeds(1000); ++seed) {
+    const Domain domain = random_surface(seed);
+    std::string problem;
+    try {
+      const auto broken = broken_invariants(domain.patch, convert(domain.patch, options_for(seed)).mesh);
+      if (!broken.empty()) problem = broken.front();
+    } catch (const std::exception& e) {
+      problem = e.what();
+    }
+    if (problem.empty()) continue;
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    FAIL_CHECK(problem);
+  }
+}
+
+TEST_CASE("random domains rolled onto cylinders and cones are worth what they are in the plane") {
+  Pool flat, bent;
+  for (std::uint64_t seed = 0; seed < seeds(300); ++seed) {
+    const Patch patch = random_domain(seed).patch;
+    Rng rng(seed);
+    const Options options = options_for(seed);
+    try {
+      const QuadMesh plane = convert(patch, options).mesh;
+      const QuadMesh curved = convert(rolled(patch, seed % 2 ? rng.between(0.3, 0.9) : 0, rng), options).mesh;
+      flat.add(plane);
+      bent.add(curved);
+      CHECK(curved.triangles.size() == plane.triangles.size());
+    } catch (const SurfaceError& error) {
+      CAPTURE(seed);
+      FAIL_CHECK(error.what());
+    }
+  }
+  CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
+  CHECK(double(bent.quads) == doctest::Approx(double(flat.quads)).epsilon(0.02));
+  CHECK(bent.share() <= flat.share() * 1.02 + 0.002);
+}
