@@ -20,8 +20,9 @@ bool is_folded_under(const MeshOnSurface& mesh, Index f) {
   const chart::Face& face = mesh.mesh().faces[f];
   const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh.point(face[i]); };
   const Index hint = mesh.mesh().near[f];
-  return chart::degree(face) == 4 ? is_folded_under<4>(mesh.whole(), {at(0), at(1), at(2), at(3)}, hint)
-                                  : is_folded_under<3>(mesh.whole(), {at(0), at(1), at(2)}, hint);
+  return chart::degree(face) == 4
+             ? is_folded_under<4>(mesh.whole(), mesh.whole_normals(), {at(0), at(1), at(2), at(3)}, hint)
+             : is_folded_under<3>(mesh.whole(), mesh.whole_normals(), {at(0), at(1), at(2)}, hint);
 }
 
 }  // namespace

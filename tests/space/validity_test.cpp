@@ -118,8 +118,10 @@ TEST_CASE("in space: a quad over a sharp fillet is good by the mean normal") {
   }
   const space::Background surface(patch.points, patch.triangles);
   const space::Corners<4> quad{patch.points[0], patch.points[3], patch.points[7], patch.points[4]};
-  CHECK(space::scaled_jacobian_on<4>(surface, quad, 0) == doctest::Approx(1));
-  CHECK(space::scaled_jacobian_on<4>(surface, {quad[3], quad[2], quad[1], quad[0]}, 0) == doctest::Approx(-1));
+  const space::SurfaceNormals normals(surface);
+  const space::Corners<4> over{quad[3], quad[2], quad[1], quad[0]};
+  CHECK(space::scaled_jacobian(quad, normals.of(quad, 0)) == doctest::Approx(1));
+  CHECK(space::scaled_jacobian(over, normals.of(over, 0)) == doctest::Approx(-1));
 }
 
 TEST_CASE("in space: along a barrier elements are judged by their own side") {
