@@ -33,12 +33,12 @@ chart::SurfaceMesh improve(chart::SurfaceMesh mesh, const std::vector<chart::Edg
   {
     MeshOnSurface view(mesh, creases, surface, *region.background);
     smooth(view, options);
-    raise_poor(view, options);
+    smooth_near(view, options, raise_poor(view, options));
     if (find_poor(view, 0).empty()) return mesh;
   }
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
   MeshOnSurface view(mesh, creases, surface, *region.background);
-  raise_poor(view, options);
+  smooth_near(view, options, raise_poor(view, options));
   for (const PoorFace& poor : find_poor(view, 0))
     if (!is_folded_under(view, poor.face))
       throw SurfaceError("no valid element was found at " + describe(view.point(view.node(4 * poor.face))) +

@@ -35,13 +35,13 @@ Result::Result(const Patch& before, const QuadMesh& after)
   for (Index side = 0; side < sides_.slots(); ++side) {
     const Index v = sides_.node(side);
     if (v == kNone || !is_inside[v] || foot_[v].triangle != kNone) continue;
-    foot_[v] = surface().walk(after.points[v], triangle_[side / 4]);
+    foot_[v] = normals_.closest(after.points[v], triangle_[side / 4]);
     normal_[v] = surface().smooth_normal(foot_[v].triangle, foot_[v].weights);
   }
 }
 
 Foot Result::foot(Index element, Index node) const {
-  return foot_[node].triangle == kNone ? surface().walk(after_.points[node], triangle_[element]) : foot_[node];
+  return foot_[node].triangle == kNone ? normals_.closest(after_.points[node], triangle_[element]) : foot_[node];
 }
 
 template <std::size_t N>
