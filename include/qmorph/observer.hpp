@@ -105,7 +105,7 @@ struct StageView {
   Stage stage = Stage::input;
   double seconds = 0;  ///< of the stage alone, all regions together
   const QuadMesh& mesh;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit normal of its plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit normal of its plane; zero if it is curved
   /// Of the last stage: for each inner edge, its length over that of the input's edges nearby (the median of the 12 whose
   /// middles are nearest).
   std::span<const double> size_ratios;

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// The normal of a triangle that is not so high, relative to its longest side, says nothing.
-constexpr double kLeastHeight = 0.02;
+constexpr double kLeastHeight = 1e-3;
 
 bool has_normal(const space::Background& surface, Index t) {
   double longest = 0;
@@ -73,18 +73,18 @@ std::vector<Index> faces_between(const space::Background& surface, const std::ve
   return face;
 }
 
-/// A face between creases that is one triangle, or few of which some have no normal, is a fault of the triangulation, not one of
+/// A face between creases that is one triangle, or two beside some that have no normal, is a fault of the triangulation, not one of
 /// the shape: what is sharp around it says nothing.
 void drop_around_crumbs(const space::Background& surface, const std::vector<char>& counts,
                         std::vector<bool>& is_crease) {
-  constexpr std::size_t kFew = 8;
+  constexpr std::size_t kFew = 2;
   Index faces = 0;
   const std::vector<Index> face = faces_between(surface, is_crease, faces);
   std::vector<std::size_t> all(faces, 0), with_normal(faces, 0);
   for (Index t = 0; t < surface.triangles(); ++t) ++all[face[t]], with_normal[face[t]] += counts[t] != 0;
   for (Index side = 0; side < is_crease.size(); ++side) {
     const Index f = face[side / 3];
-    if (!is_crease[side] || !(with_normal[f] <= 1 || (all[f] <= kFew && with_normal[f] < all[f]))) continue;
+    if (!is_crease[side] || !(with_normal[f] <= 1 || (with_normal[f] <= kFew && with_normal[f] < all[f]))) continue;
     is_crease[side] = is_crease[surface.opposite(side)] = false;
   }
 }

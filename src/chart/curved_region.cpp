@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/curved_region.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "chart/creases.hpp"
 
 namespace qmorph::chart {
@@ -27,6 +32,21 @@ CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) 
       barriers.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
   background = std::make_unique<const space::Background>(points, region.triangles, barriers);
   creases = find_creases(*background, crease_angle);
+  if (crease_angle < std::numbers::pi) find_tips(2 * std::numbers::pi * (1 - std::cos(crease_angle)));
+}
+
+/// A cone whose side is inclined by the angle of a crease lacks so many radians around its tip.
+void CurvedRegion::find_tips(double least) {
+  std::vector<double> lacks(points.size(), 2 * std::numbers::pi);
+  for (const auto& t : region.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d a = points[t[(i + 1) % 3]] - points[t[i]], b = points[t[(i + 2) % 3]] - points[t[i]];
+      lacks[t[i]] -= std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  for (const auto& edge : barriers)
+    for (Index v : edge) lacks[v] = 0;
+  for (Index v = 0; v < points.size(); ++v)
+    if (lacks[v] > least) tips.push_back(v);
 }
 
 SurfaceMesh CurvedRegion::start() const {
@@ -36,21 +56,44 @@ SurfaceMesh CurvedRegion::start() const {
   mesh.fixed.assign(points.size(), 0);
   mesh.node = region.node;
   for (Index v : region.fixed) mesh.fixed[v] = 1;
-  mesh.open.assign(4 * region.triangles.size(), false);
+  for (Index v : tips) mesh.fixed[v] = 1;
+  for (Index t = 0; t < region.triangles.size(); ++t)
+    for (Index v : region.triangles[t]) mesh.on[v] = t;
+
+  // The halves of a quad are rows that follow one another. They are in two regions where a constraint runs along the
+  // diagonal, and then they stay halves.
+  std::vector<std::pair<Index, Index>> halves;  // row, triangle
+  for (Index t = 0; t < region.row.size(); ++t)
+    if (region.row[t] >= first_half) halves.emplace_back(region.row[t], t);
+  std::sort(halves.begin(), halves.end());
+  std::vector<Index> other(region.triangles.size(), kNone);  // half, and the first of the two has the quad
+  for (std::size_t k = 0; k + 1 < halves.size(); ++k) {
+    const auto [row, t] = halves[k];
+    const auto [next_row, next] = halves[k + 1];
+    if ((row - first_half) % 2 != 0 || next_row != row + 1 || region.open[3 * t + 2] || region.open[3 * next]) continue;
+    other[t] = next, other[next] = t;
+  }
   for (Index t = 0; t < region.triangles.size(); ++t) {
     const auto& [a, b, c] = region.triangles[t];
-    for (Index v : {a, b, c}) mesh.on[v] = t;
-    mesh.faces.push_back({a, b, c, kNone});
+    const bool is_second = other[t] != kNone && region.row[other[t]] < region.row[t];
+    if (is_second) continue;
     mesh.near.push_back(t);
-    for (Index i = 0; i < 3; ++i) mesh.open[4 * t + i] = region.open[3 * t + i];
+    const bool is_quad = other[t] != kNone;
+    mesh.faces.push_back({a, b, c, is_quad ? region.triangles[other[t]][2] : kNone});
+    for (Index i = 0; i < 4; ++i) {
+      const Index side = !is_quad ? 3 * t + i : i < 2 ? 3 * t + i : 3 * other[t] + i - 1;
+      mesh.open.push_back((is_quad || i < 3) && region.open[side]);
+    }
   }
   return mesh;
 }
 
-std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle) {
+std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle, std::size_t first_half) {
   std::vector<CurvedRegion> regions;
-  for (Region& region : cut_into_regions(patch, shadow(patch)))
+  for (Region& region : cut_into_regions(patch, shadow(patch))) {
     regions.emplace_back(patch, std::move(region), crease_angle);
+    regions.back().first_half = first_half;
+  }
   return regions;
 }
 

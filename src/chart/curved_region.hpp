@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A region of a curved surface, and what it becomes.
+/// A region of a curved surface.
 
 #include <memory>
 
 #include "chart/surface_mesh.hpp"
-#include "qmorph/options.hpp"
-#include "qmorph/report.hpp"
 
 namespace qmorph::chart {
 
@@ -17,17 +15,18 @@ struct CurvedRegion {
   std::vector<space::Background::Edge> barriers;
   std::unique_ptr<const space::Background> background;
   std::vector<std::pair<Index, Index>> creases;  ///< edges, lower vertex first, sorted
+  std::vector<Index> tips;  ///< vertices inside where the surface is as sharp as a crease: the tip of a cone
 
   CurvedRegion(const Patch& patch, Region cut, double crease_angle);
-  /// Its triangles, before anything is done to them.
+  /// Its elements, before anything is done to them. Triangles of the patch from row `first_half` on are halves of quads, two and two.
   SurfaceMesh start() const;
+  std::size_t first_half = std::size_t(-1);
+
+ private:
+  void find_tips(double least);
 };
 
-/// The regions of a patch.
-std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle);
-
-/// Quads of a region. Vertices of the region keep their numbers.
-/// \throws SurfaceError
-SurfaceMesh convert_region(const CurvedRegion& region, const Options& options, ConversionReport& report);
+/// The regions of a patch of triangles; `first_half` as above.
+std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle, std::size_t first_half = -1);
 
 }  // namespace qmorph::chart

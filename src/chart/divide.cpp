@@ -78,9 +78,12 @@ class Dividing {
     auto smaller = cut(faces, piece);
     if (!smaller.empty()) return smaller;
     part = lay_out(faces);
-    if (!is_planar_topology(piece) || part->chart.flattening().flipped > 0)
-      throw SurfaceError("no part of it around " + describe(mesh_.points[mesh_.faces[faces[0]][0]]) +
-                         " can be laid flat; mesh the surface anew or repair it");
+    if (!is_planar_topology(piece) || part->chart.flattening().flipped > 0) {
+      const Eigen::Vector3d& place = mesh_.points[mesh_.faces[faces[0]][0]];
+      throw SurfaceError(
+          "its triangles around " + describe(place) + " cannot be laid flat; mesh the surface anew or repair it",
+          {.kind = ErrorKind::bad_element, .place = place});
+    }
     accept(faces, std::move(part));
     return {};
   }

@@ -123,11 +123,12 @@ Region Piece::region(const std::vector<Vec2>& flat) const {
     region.node.push_back(v);
     if (fixed[v]) region.fixed.push_back(v);
   }
+  region.boundary_sides = boundary_sides;
+  if (halves.size() > faces.size()) return region;
   region.triangles = halves;
   region.row = row;
   for (Index k = 0; k < faces.size(); ++k)
     for (Index i = 0; i < 3; ++i) region.open.push_back(open[4 * k + i]);
-  region.boundary_sides = boundary_sides;
   return region;
 }
 

@@ -64,7 +64,7 @@ struct Piece {
         const std::vector<Index>& rows);
   /// Edges that the halves must not be joined across.
   std::vector<space::Background::Edge> barriers() const;
-  /// As what the planar engine takes; triangles only.
+  /// As what the planar engine takes; its triangles are missing if there are quads.
   Region region(const std::vector<Vec2>& flat) const;
   kernel::Mesh mesh(const std::vector<Vec2>& flat) const;
 };

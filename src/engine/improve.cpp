@@ -1,48 +1,15 @@
 #include <optional>
 #include <utility>
 
-#include "engine/collector.hpp"
+#include "chart/convert_curved.hpp"
+#include "engine/improve_region.hpp"
 #include "engine/mixed.hpp"
 #include "engine/overlap.hpp"
-#include "engine/pipeline.hpp"
-#include "engine/prepare.hpp"
 #include "engine/surface.hpp"
 #include "qmorph/convert.hpp"
 
 namespace qmorph {
 namespace {
-
-/// A region whose elements are valid now, as triangles alone and as the mesh that it is.
-struct Start {
-  Region region;
-  kernel::Mesh mesh;
-};
-
-Start make_start(const Region& region, std::size_t triangles, const Plane& plane, const Options& options) {
-  Start start{region, join_halves(region, triangles)};
-  mend_quads(start.mesh, options.smoothing, plane);
-  repair_input(start.mesh, plane);
-  take_triangles(start.mesh, start.region);
-  return start;
-}
-
-/// Uses up `start`.
-kernel::Mesh improve_region(Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            ConversionReport& report, Record& record) {
-  Pipeline pipeline(options, report, record, input);
-  kernel::Mesh mesh = std::move(start.mesh);
-  pipeline.finish(mesh);
-  const std::optional<SurfaceError> fault = find_fault(mesh, start.region, plane);
-  if (!fault) return mesh;
-
-  // What quads leave no room for may be possible without them.
-  kernel::Mesh triangles(start.region.points, start.region.triangles, start.region.open);
-  for (Index v : start.region.fixed) triangles.set_fixed(v);
-  pipeline.advance_front(triangles, plane);
-  pipeline.finish(triangles);
-  if (find_fault(triangles, start.region, plane)) throw *fault;
-  return triangles;
-}
 
 SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
@@ -50,12 +17,12 @@ SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   const Patch halves = cut_quads(patch);
   const std::size_t triangles = patch.triangles.size();
   const std::optional<Plane> plane = find_plane(halves);
-  if (!plane) throw SurfaceError("not planar; quads of curved surfaces are not improved yet");
+  if (!plane) return chart::improve_curved(patch, options);
   const Surface surface(halves, *plane);
-  std::vector<Start> starts;
+  std::vector<ImproveStart> starts;
   std::vector<Region> regions;
   for (const Region& region : surface.regions) {
-    starts.push_back(make_start(region, triangles, surface.plane, options));
+    starts.push_back(start_improving(region, join_halves(region, triangles), surface.plane, options));
     regions.push_back(starts.back().region);
   }
   require_no_overlap(regions, surface.plane);

@@ -41,7 +41,10 @@ void Recorder::stage_done(const StageView& view) {
   figures.stage = view.stage;
   figures.seconds += view.seconds;
   QualityAccumulator quality;
-  quality.add(view.mesh.points, view.mesh.triangles, view.mesh.quads, view.normal);
+  if (view.normal.isZero())
+    quality.add(view.mesh.points, view.mesh.triangles, view.mesh.quads);
+  else
+    quality.add(view.mesh.points, view.mesh.triangles, view.mesh.quads, view.normal);
   figures.quality.add(quality);
   if (wishes_.meshes) figures.meshes.push_back(view.mesh);
   history.size_ratios.insert(history.size_ratios.end(), view.size_ratios.begin(), view.size_ratios.end());

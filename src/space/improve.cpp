@@ -40,9 +40,12 @@ chart::SurfaceMesh improve(chart::SurfaceMesh mesh, const std::vector<chart::Edg
   MeshOnSurface view(mesh, creases, surface, *region.background);
   smooth_near(view, options, raise_poor(view, options));
   for (const PoorFace& poor : find_poor(view, 0))
-    if (!is_folded_under(view, poor.face))
-      throw SurfaceError("no valid element was found at " + describe(view.point(view.node(4 * poor.face))) +
-                         "; refine the triangles or the boundary there");
+    if (!is_folded_under(view, poor.face)) {
+      const Eigen::Vector3d& place = view.point(view.node(4 * poor.face));
+      throw SurfaceError(
+          "no valid element was found at " + describe(place) + "; refine the triangles or the boundary there",
+          {.kind = ErrorKind::no_valid_mesh, .place = place});
+    }
   return mesh;
 }
 

@@ -18,9 +18,11 @@ class Reference {
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
- private:
-  /// Empty without quads.
+  /// The triangles of a patch, and the halves of its quads, two and two: the side that they share is the last of the first and the
+  /// first of the second. Empty without quads.
   static std::vector<Background::Triangle> with_halves(const Patch& patch);
+
+ private:
   std::vector<Background::Triangle> triangles_;
 
  public:

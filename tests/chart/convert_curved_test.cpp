@@ -11,6 +11,7 @@
 #include "chart/fixture.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/error.hpp"
+#include "qmorph/quality.hpp"
 #include "support/invariants.hpp"
 #include "support/on_surface.hpp"
 
@@ -69,7 +70,7 @@ TEST_CASE("curved: closed surfaces without a line become quads alone") {
   for (const Case& c : {Case{"sphere", sphere(0.11, rng), 2, 0.04}, Case{"torus", torus(1, 0.35, 0.1, rng), 0, 0.05},
                         Case{"double torus", double_torus(0.11, rng), -2, 0.06}}) {
     CAPTURE(c.name);
-    const QuadMesh mesh = convert(c.patch);
+    const QuadMesh mesh = convert(c.patch).mesh;
     CHECK(mesh.triangles.empty());
     CHECK(euler_characteristic(mesh.triangles, mesh.quads) == c.euler);
     CHECK(irregular_share(mesh) < c.most_irregular);
@@ -83,10 +84,10 @@ TEST_CASE("curved: the same bytes on one thread and two, and when it is called a
   for (const Patch& patch : {torus(1, 0.35, 0.15, rng), pierced(sphere(0.12, rng), {0, 0, 1}, 0.4), box({1, 1, 2}, 0.2, rng)}) {
     Options options;
     options.threads = 1;
-    const QuadMesh first = convert(patch, options);
+    const QuadMesh first = convert(patch, options).mesh;
     options.threads = 2;
-    CHECK(same_bytes(first, convert(patch, options)));
-    CHECK(same_bytes(first, convert(patch, options)));
+    CHECK(same_bytes(first, convert(patch, options).mesh));
+    CHECK(same_bytes(first, convert(patch, options).mesh));
   }
 }
 
@@ -94,7 +95,7 @@ TEST_CASE("curved: a cone keeps its tip, wide or pointed") {
   for (const double slope : {0.3, 1.0, 4.0}) {
     CAPTURE(slope);
     const Patch patch = cone(6, 9, slope);
-    const QuadMesh mesh = convert(patch);
+    const QuadMesh mesh = convert(patch).mesh;
     check(patch, mesh);
     CHECK(mesh.triangles.empty());
     if (slope >= 1) CHECK(std::find(mesh.source.begin(), mesh.source.end(), Index(0)) != mesh.source.end());
@@ -126,7 +127,7 @@ TEST_CASE("curved: a pole where a line ends is a node like others") {
   patch.constraints.push_back({0, node(1, 0)});
   for (int r = 1; r < rows - 1; ++r) patch.constraints.push_back({node(r, 0), node(r + 1, 0)});
   patch.constraints.push_back({node(rows - 1, 0), south});
-  const QuadMesh mesh = convert(patch);
+  const QuadMesh mesh = convert(patch).mesh;
   check(patch, mesh);
   CHECK(mesh.triangles.empty());
   CHECK(measure(mesh).scaled_jacobian_min > 0.3);
@@ -135,7 +136,7 @@ TEST_CASE("curved: a pole where a line ends is a node like others") {
 TEST_CASE("curved: sharp edges stay, whole or with a node in their middle") {
   Rng rng(22);
   const Patch patch = box({1, 1.5, 2}, 0.22, rng);
-  const QuadMesh mesh = convert(patch);
+  const QuadMesh mesh = convert(patch).mesh;
   check(patch, mesh);
   CHECK(mesh.triangles.empty());
   const space::Background surface(patch.points, patch.triangles);
@@ -173,7 +174,7 @@ TEST_CASE("curved: a plate that is off its plane by a file's rounding is what it
     CAPTURE(noise);
     Patch patch = plane;
     for (Vector3d& p : patch.points) p.z() += noise * rng.between(-1, 1);
-    const QuadMesh mesh = convert(patch), flat = convert(plane);
+    const QuadMesh mesh = convert(patch).mesh, flat = convert(plane).mesh;
     check(patch, mesh);
     CHECK(mesh.triangles.empty());
     CHECK(double(mesh.quads.size()) == doctest::Approx(double(flat.quads.size())).epsilon(0.05));
@@ -186,7 +187,7 @@ TEST_CASE("curved: coarse surfaces of few triangles") {
   for (const Patch& patch : {box({1, 1, 1}, 1, rng), sphere(1.2, rng), sphere(0.5, rng), tube(1, 0.3, 0.6, 0, rng),
                              cone(3, 1, 1), cone(6, 2, 1)}) {
     CAPTURE(patch.triangles.size());
-    const QuadMesh mesh = convert(patch);
+    const QuadMesh mesh = convert(patch).mesh;
     check(patch, mesh);
   }
 }
@@ -196,7 +197,7 @@ TEST_CASE("curved: an odd boundary leaves one triangle, and creases change nothi
   for (int k = 0; k < 6; ++k) {
     Patch patch = pierced(k % 2 ? sphere(0.15, rng) : box({1, 1, 1}, 0.2, rng), {0, 0, 1}, 0.3 + 0.05 * k);
     const RegionCount count = count_regions(patch);
-    const QuadMesh mesh = convert(patch);
+    const QuadMesh mesh = convert(patch).mesh;
     check(patch, mesh);
     CHECK(mesh.triangles.size() == count.odd);
   }

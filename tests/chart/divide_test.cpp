@@ -108,15 +108,20 @@ TEST_CASE("interfaces: at most one part is odd, and all nodes stay on the surfac
     Start start(patch, 0.7);
     const std::vector<bool> is_crease = sides_on(start.mesh, start.region.creases);
     Division division = divide(start.mesh, start.opposite, is_crease, 300);
-    std::vector<Edge> interface, creases = start.region.creases;
-    for (Index side = 0; side < start.opposite.size(); ++side)
-      if (division.is_cut[side] && !is_crease[side]) {
-        const Face& face = start.mesh.faces[side / 4];
-        interface.push_back(std::minmax(face[side % 4], face[next_corner(face, side % 4)]));
-      }
-    std::sort(interface.begin(), interface.end());
-    interface.erase(std::unique(interface.begin(), interface.end()), interface.end());
-    straighten(start.mesh, start.opposite, is_crease, interface, *start.region.background);
+    std::vector<Edge> creases = start.region.creases;
+    std::vector<bool> is_interface = division.is_cut;
+    for (Index side = 0; side < is_crease.size(); ++side)
+      if (is_crease[side]) is_interface[side] = false;
+    std::vector<Edge> interface = edges_on(start.mesh, is_interface);
+    const std::size_t parts = division.parts.size();
+    straighten(start.mesh, creases, interface, *start.region.background);
+    start.opposite = opposite_sides(start.mesh);
+    std::vector<Edge> cuts = interface;
+    cuts.insert(cuts.end(), creases.begin(), creases.end());
+    std::sort(cuts.begin(), cuts.end());
+    division.is_cut = sides_on(start.mesh, cuts);
+    division.parts = components(start.all(), start.opposite, division.is_cut);
+    CHECK(division.parts.size() == parts);
     make_parts_even(start.mesh, start.opposite, division, creases, interface, *start.region.background);
     std::size_t odd = 0;
     for (const auto& part : division.parts)

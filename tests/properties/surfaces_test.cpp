@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
 #include "support/invariants.hpp"
 #include "support/surfaces.hpp"
 
@@ -47,7 +48,7 @@ TEST_CASE("1000 random surfaces convert without breaking an invariant") {
     const Domain domain = random_surface(seed);
     std::string problem;
     try {
-      const auto broken = broken_invariants(domain.patch, convert(domain.patch, options_for(seed)));
+      const auto broken = broken_invariants(domain.patch, convert(domain.patch, options_for(seed)).mesh);
       if (!broken.empty()) problem = broken.front();
     } catch (const std::exception& e) {
       problem = e.what();
@@ -66,8 +67,8 @@ TEST_CASE("random domains rolled onto cylinders and cones are worth what they ar
     Rng rng(seed);
     const Options options = options_for(seed);
     try {
-      const QuadMesh plane = convert(patch, options);
-      const QuadMesh curved = convert(rolled(patch, seed % 2 ? rng.between(0.3, 0.9) : 0, rng), options);
+      const QuadMesh plane = convert(patch, options).mesh;
+      const QuadMesh curved = convert(rolled(patch, seed % 2 ? rng.between(0.3, 0.9) : 0, rng), options).mesh;
       flat.add(plane);
       bent.add(curved);
       CHECK(curved.triangles.size() == plane.triangles.size());

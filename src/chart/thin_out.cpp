@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/thin_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chart/rework.hpp"
+#include "chart/windows.hpp"
+#include "kernel/sort_unique.hpp"
+#include "smoothing/smooth.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+constexpr WindowSize kWindow{6, 3, 400};
+/// An edge that two become is at most so many times as long as others around.
+constexpr double kLongest = 1.9;
+/// What is merged may not leave triangles with a smaller sine.
+constexpr double kLeastSine = 0.2;
+
+/// A node that goes, and the one that stays.
+struct Merge {
+  Index from, into;
+};
+
+double length(const SurfaceMesh& mesh, Index a, Index b) { return (mesh.points[a] - mesh.points[b]).norm(); }
+
+std::vector<char> outer_nodes(const SurfaceMesh& mesh, const std::vector<Edge>& creases) {
+  std::vector<char> outer(mesh.points.size(), 0);
+  for (const auto& [a, b] : creases) outer[a] = outer[b] = 1;
+  for (Index side = 0; side < mesh.open.size(); ++side)
+    if (mesh.open[side]) {
+      const Face& face = mesh.faces[side / 4];
+      outer[face[side % 4]] = outer[face[next_corner(face, side % 4)]] = 1;
+    }
+  return outer;
+}
+
+/// As many as edges are too many, the shortest first; no two are neighbours.
+std::vector<Merge> choose(const SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
+                          const std::vector<Edge>& interface) {
+  std::vector<char> taken = outer_nodes(mesh, creases);
+  std::vector<std::vector<Index>> ends(mesh.points.size());
+  double wanted = 0;
+  for (const auto& [a, b] : interface) {
+    ends[a].push_back(b), ends[b].push_back(a);
+    wanted += 2 * length(mesh, a, b) / (size[a] + size[b]);
+  }
+  std::vector<std::pair<double, Merge>> merges;  // by the relative length of what two edges become
+  for (Index v = 0; v < ends.size(); ++v) {
+    if (ends[v].size() != 2 || taken[v] || mesh.fixed[v]) continue;
+    const Index a = ends[v][0], b = ends[v][1];
+    const double joined = (length(mesh, v, a) + length(mesh, v, b)) / size[v];
+    if (joined <= kLongest) merges.push_back({joined, {v, length(mesh, v, a) < length(mesh, v, b) ? a : b}});
+  }
+  std::sort(merges.begin(), merges.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first, a.second.from) < std::pair(b.first, b.second.from);
+  });
+  std::vector<Merge> chosen;
+  const double most = std::floor(double(interface.size()) - wanted);
+  std::vector<char> near(mesh.points.size(), 0);
+  for (const auto& [joined, merge] : merges) {
+    if (double(chosen.size()) >= most) break;
+    if (near[merge.from]) continue;
+    chosen.push_back(merge);
+    for (Index v : ends[merge.from]) near[v] = 1;
+  }
+  return chosen;
+}
+
+bool merge_in(kernel::Mesh& mesh, Index from, Index into) {
+  const Index h = mesh.find(from, into);
+  if (h == kNone || !mesh.is_free(from) || !mesh.can_collapse(h)) return false;
+  mesh.begin();
+  mesh.collapse(h);
+  std::vector<Index> around;
+  Index e = mesh.out(into);
+  do {
+    around.push_back(mesh.target(e));
+    e = mesh.rotate_ccw(e);
+  } while (e != mesh.out(into));
+  constexpr int kPasses = 3;
+  for (int pass = 0; pass < kPasses; ++pass)
+    for (Index v : around) smoothing::relax_node(mesh, v);
+  const bool good = mesh.is_star_above(into, kLeastSine) &&
+                    std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); });
+  good ? mesh.commit() : mesh.rollback();
+  return good;
+}
+
+}  // namespace
+
+std::vector<double> mean_edges(const SurfaceMesh& mesh) {
+  std::vector<double> sum(mesh.points.size(), 0), count(mesh.points.size(), 0);
+  for (const Face& face : mesh.faces)
+    for (Index i = 0; i < degree(face); ++i) {
+      const Index a = face[i], b = face[next_corner(face, i)];
+      const double l = length(mesh, a, b);
+      sum[a] += l, sum[b] += l, ++count[a], ++count[b];
+    }
+  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = count[v] > 0 ? sum[v] / count[v] : 0;
+  return sum;
+}
+
+bool thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
+              std::vector<Edge>& interface, const space::Background& background) {
+  if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return false;
+  const std::vector<Merge> merges = choose(mesh, size, creases, interface);
+  std::vector<Index> goes_into(mesh.points.size(), kNone);
+  std::vector<char> waiting(mesh.points.size(), 0);
+  for (const Merge& merge : merges) goes_into[merge.from] = merge.into, waiting[merge.from] = 1;
+  bool changed = false;
+  while (true) {
+    const std::vector<Index> opposite = opposite_sides(mesh);
+    const std::vector<Window> windows = take_windows(mesh, opposite, sides_on(mesh, creases), kWindow, waiting);
+    if (windows.empty()) break;
+    std::vector<Reworked> results;
+    for (const Window& window : windows) {
+      const auto& [piece, chart] = *window.laid_out;
+      Reworked work{&piece, piece.mesh(chart.flat()), {}};
+      bool merged = false;
+      for (Index v = 0; v < piece.points.size(); ++v) {
+        const Index from = piece.vertex[v], into = goes_into[from];
+        if (into == kNone || waiting[from]) continue;
+        goes_into[from] = kNone;
+        const auto at = std::find(piece.vertex.begin(), piece.vertex.end(), into);
+        if (at == piece.vertex.end() || !merge_in(work.mesh, v, Index(at - piece.vertex.begin()))) continue;
+        for (auto& [a, b] : interface) {
+          if (a == from) a = into;
+          if (b == from) b = into;
+          if (a > b) std::swap(a, b);
+        }
+        merged = true;
+      }
+      if (!merged) continue;
+      changed = true;
+      work.lifted = lift(work.mesh, piece, chart, background);
+      results.push_back(std::move(work));
+    }
+    mesh = replace(mesh, results);
+  }
+  std::erase_if(interface, [](const Edge& edge) { return edge.first == edge.second; });
+  sort_unique(interface);
+  return changed;
+}
+
+}  // namespace qmorph::chart

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A region of a curved surface becomes quads.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "chart/curved_region.hpp"
+#include "chart/part_work.hpp"
+
+namespace qmorph::chart {
+
+struct RegionWork {
+  SurfaceMesh mesh;  ///< vertices of the region keep their numbers
+  ConversionReport report;
+  std::vector<SurfaceMesh> stages;  ///< before the last one; none if nobody wants them
+  std::array<double, kStages> seconds{};
+  std::vector<std::unique_ptr<FrontObserver>> fronts;
+};
+
+/// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths and mends in
+/// space. \throws SurfaceError
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, Task task);
+
+}  // namespace qmorph::chart
