@@ -248,14 +248,24 @@ adapter::OpenedModel open(const Request& request, std::ostream& err) {
   return opened;
 }
 
+/// The surfaces of the file that the mesh is measured against.
+std::map<int, Patch> read_reference(const Request& request) {
+  if (request.against.empty()) return {};
+  adapter::check_readable(request.against);
+  const adapter::Session session(request.gmsh_arguments);
+  adapter::open_model(request.against, {{}, {}, true, request.ignore_periodicity});
+  return session::read_surfaces();
+}
+
 int check_file(const Request& request, std::ostream& out, std::ostream& err) {
   adapter::check_readable(request.input);
   ModelReport model;
   {
     const StdoutAsStderr redirected;
+    const std::map<int, Patch> before = read_reference(request);
     const adapter::Session session(request.gmsh_arguments);
     adapter::open_model(request.input, {request.merged, {}, true, request.ignore_periodicity});
-    model = session::measure_surfaces(request.surfaces);
+    model = session::measure_surfaces(request.surfaces, before);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', out);
