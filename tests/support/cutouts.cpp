@@ -43,7 +43,10 @@ Draft cloud(Rng& rng, int count) {
     });
     if (free) points.push_back(p);
   }
-  const auto mesh = triangulate(points, {{0, 1, kBoundary}, {1, 2, kBoundary}, {2, 3, kBoundary}, {3, 0, kBoundary}});
+  const auto mesh = triangulate(points, {{0, 1, SegmentKind::boundary},
+                                         {1, 2, SegmentKind::boundary},
+                                         {2, 3, SegmentKind::boundary},
+                                         {3, 0, SegmentKind::boundary}});
   Draft draft;
   if (!mesh) return draft;
   for (const LatticePoint& p : points) draft.points.push_back(Vector2d(double(p.x), double(p.y)) / kSize);
@@ -145,7 +148,7 @@ std::optional<Draft> tiny_domain(Rng& rng, std::string& name) {
       for (int i = 0; i < corners; ++i) {
         const double angle = 2 * std::numbers::pi * i / corners, radius = 4096 * rng.between(thinnest, 1);
         points.push_back({std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
-        sides.push_back({i, (i + 1) % corners, kBoundary});
+        sides.push_back({i, (i + 1) % corners, SegmentKind::boundary});
       }
       const auto mesh = triangulate(points, sides);
       if (!mesh) return std::nullopt;

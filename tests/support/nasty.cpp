@@ -65,11 +65,11 @@ std::optional<Draft> hollow(Rng& rng) {
   Sketch sketch;
   sketch.filling.pattern = Filling::Pattern::nothing;
   sketch.size.smallest = sketch.size.largest = rng.between(0.02, 0.3);
-  sketch.path(ring(rng, rng.range(3, 8), 1, {0, 0}), kBoundary, true);
+  sketch.path(ring(rng, rng.range(3, 8), 1, {0, 0}), SegmentKind::boundary, true);
   for (int holes = rng.range(0, 3); holes > 0; --holes) {
     sketch.size.smallest = sketch.size.largest = rng.between(0.01, 0.1);
     const Vector2d middle = on_circle(holes / 3.0, 0.25);
-    sketch.path(ring(rng, rng.range(3, 12), rng.between(0.02, 0.15), middle), kBoundary, true);
+    sketch.path(ring(rng, rng.range(3, 12), rng.between(0.02, 0.15), middle), SegmentKind::boundary, true);
   }
   return sketch.build(rng);
 }
@@ -82,10 +82,10 @@ std::optional<Draft> gap(Rng& rng) {
   const double width = rng.power_of_two(-8, -2);
   sketch.size.smallest = sketch.size.largest = rng.between(0.02, 1);
   auto outer = ring(rng, corners, 1, {0, 0});
-  sketch.path(outer, kBoundary, true);
+  sketch.path(outer, SegmentKind::boundary, true);
   sketch.size.smallest = sketch.size.largest = rng.between(0.02, 1);
   for (Vector2d& p : outer) p *= 1 - width;
-  sketch.path(outer, kBoundary, true);
+  sketch.path(outer, SegmentKind::boundary, true);
   return sketch.build(rng);
 }
 
@@ -95,7 +95,8 @@ std::optional<Draft> needle(Rng& rng) {
   sketch.filling.pattern = rng.chance(0.5) ? Filling::Pattern::nothing : Filling::Pattern::rows;
   sketch.size.smallest = sketch.size.largest = rng.between(0.03, 0.3);
   const double angle = rng.between(1, 10) / 360;
-  sketch.path({{-1, 0}, on_circle(-angle, 1) + Vector2d(0, -0.1), {1, rng.between(0, 0.5)}}, kBoundary, true);
+  sketch.path({{-1, 0}, on_circle(-angle, 1) + Vector2d(0, -0.1), {1, rng.between(0, 0.5)}}, SegmentKind::boundary,
+              true);
   return sketch.build(rng);
 }
 
@@ -104,13 +105,13 @@ std::optional<Draft> chain_of_holes(Rng& rng) {
   Sketch sketch;
   sketch.filling.pattern = rng.chance(0.5) ? Filling::Pattern::nothing : Filling::Pattern::rows;
   sketch.size.smallest = sketch.size.largest = rng.between(0.05, 0.3);
-  sketch.path({{-1, -0.5}, {0, -0.5}, {1, -0.5}, {1, 0}, {1, 0.5}, {-1, 0.5}, {-1, 0}}, kBoundary, true);
+  sketch.path({{-1, -0.5}, {0, -0.5}, {1, -0.5}, {1, 0}, {1, 0.5}, {-1, 0.5}, {-1, 0}}, SegmentKind::boundary, true);
   const int count = rng.range(2, 5);
   const double reach = rng.chance(0.3) ? 1 : 0.8, half = reach / count;
   for (int i = 0; i < count; ++i) {
     const double x = -reach + (2 * i + 1) * half;
-    sketch.path({{x - half, 0}, {x, -rng.between(0.05, 0.4)}, {x + half, 0}, {x, rng.between(0.05, 0.4)}}, kBoundary,
-                true);
+    sketch.path({{x - half, 0}, {x, -rng.between(0.05, 0.4)}, {x + half, 0}, {x, rng.between(0.05, 0.4)}},
+                SegmentKind::boundary, true);
   }
   return sketch.build(rng);
 }
@@ -124,11 +125,11 @@ std::optional<Draft> slits(Rng& rng) {
   std::vector<Vector2d> outline{{-1, -0.5}};
   for (int i = 1; i <= count; ++i) outline.emplace_back(-1 + 2.0 * i / (count + 1), -0.5);
   for (const Vector2d& corner : {Vector2d(1, -0.5), Vector2d(1, 0.5), Vector2d(-1, 0.5)}) outline.push_back(corner);
-  sketch.path(outline, kBoundary, true);
+  sketch.path(outline, SegmentKind::boundary, true);
   for (int i = 1; i <= count; ++i) {
     const double foot = rng.chance(0.7) ? -0.5 : -0.4;
     sketch.path({{outline[std::size_t(i)].x(), foot}, {outline[std::size_t(i)].x(), rng.between(-0.3, 0.45)}},
-                kConstraint, false);
+                SegmentKind::constraint, false);
   }
   return sketch.build(rng);
 }

@@ -31,28 +31,28 @@ std::vector<Vector2d> box(double x0, double y0, double x1, double y1) {
 void hole(Rng& rng, Sketch& sketch, const Vector2d& centre, double radius) {
   switch (rng.below(4)) {
     case 0:
-      sketch.path(around(rng, centre, radius, rng.range(8, 20), 1), kBoundary, true);
+      sketch.path(around(rng, centre, radius, rng.range(8, 20), 1), SegmentKind::boundary, true);
       break;
     case 1:
-      sketch.path(around(rng, centre, radius, rng.range(3, 4), 1), kBoundary, true);
+      sketch.path(around(rng, centre, radius, rng.range(3, 4), 1), SegmentKind::boundary, true);
       break;
     case 2:
-      sketch.path(around(rng, centre, radius, rng.range(4, 9), 0.3), kBoundary, true);
+      sketch.path(around(rng, centre, radius, rng.range(4, 9), 0.3), SegmentKind::boundary, true);
       break;
     default: {  // a narrow slot
       const Vector2d half = polar(radius, rng.between(0, kPi)), side = 0.1 * Vector2d(-half.y(), half.x());
-      sketch.path({centre - half - side, centre + half - side, centre + half + side, centre - half + side}, kBoundary,
-                  true);
+      sketch.path({centre - half - side, centre + half - side, centre + half + side, centre - half + side},
+                  SegmentKind::boundary, true);
     }
   }
 }
 
 void polygon(Rng& rng, Sketch& sketch) {
-  sketch.path(around(rng, {0, 0}, 1, rng.range(3, 12), rng.chance(0.5) ? 0.3 : 0.8), kBoundary, true);
+  sketch.path(around(rng, {0, 0}, 1, rng.range(3, 12), rng.chance(0.5) ? 0.3 : 0.8), SegmentKind::boundary, true);
 }
 
 void plate(Rng& rng, Sketch& sketch) {
-  sketch.path(box(-1, -1, rng.between(0.5, 1), rng.between(0.5, 1)), kBoundary, true);
+  sketch.path(box(-1, -1, rng.between(0.5, 1), rng.between(0.5, 1)), SegmentKind::boundary, true);
   const int side = rng.range(1, 3);  // holes in the cells of a grid do not meet
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
@@ -69,7 +69,7 @@ void wedge(Rng& rng, Sketch& sketch) {
   std::vector<Vector2d> corners{{-1, 0}, {1, 0}};
   if (rng.chance(0.5)) corners.push_back({1.2, std::tan(angle)});
   corners.push_back(Vector2d(-1, 0) + polar(rng.between(1.5, 2.2), angle));
-  sketch.path(corners, kBoundary, true);
+  sketch.path(corners, SegmentKind::boundary, true);
 }
 
 /// Sharp teeth around a disk.
@@ -83,15 +83,15 @@ void spikes(Rng& rng, Sketch& sketch) {
     corners.push_back(polar(root, step * (i + 0.5 * width)));
     if (width < 0.7) corners.push_back(polar(root, step * (i + 1 - 0.5 * width)));
   }
-  sketch.path(corners, kBoundary, true);
+  sketch.path(corners, SegmentKind::boundary, true);
 }
 
 /// Two circles, off centre: the gap is down to a few hundredths wide, one element or less.
 void ring(Rng& rng, Sketch& sketch) {
   const double inner = rng.between(0.3, 0.9), gap = rng.between(0.01, 1) * (1 - inner);
-  sketch.path(around(rng, {0, 0}, 1, rng.range(24, 48), 1), kBoundary, true);
-  sketch.path(around(rng, polar(1 - inner - gap, rng.between(0, 2 * kPi)), inner, rng.range(16, 40), 1), kBoundary,
-              true);
+  sketch.path(around(rng, {0, 0}, 1, rng.range(24, 48), 1), SegmentKind::boundary, true);
+  sketch.path(around(rng, polar(1 - inner - gap, rng.between(0, 2 * kPi)), inner, rng.range(16, 40), 1),
+              SegmentKind::boundary, true);
 }
 
 /// Teeth and gaps of random width.
@@ -110,7 +110,7 @@ void comb(Rng& rng, Sketch& sketch) {
     }
     x -= step;
   }
-  sketch.path(corners, kBoundary, true);
+  sketch.path(corners, SegmentKind::boundary, true);
 }
 
 /// A thin body with a sharp tail in a channel, fine around it.
@@ -122,7 +122,7 @@ void channel(Rng& rng, Sketch& sketch) {
                  .from = {-0.5, 0},
                  .to = {rng.chance(0.5) ? -0.5 : 0.3, 0}};
   sketch.filling.pattern = Filling::Pattern::cells;
-  sketch.path(box(-1.2, -0.8, 1.2, 0.8), kBoundary, true);
+  sketch.path(box(-1.2, -0.8, 1.2, 0.8), SegmentKind::boundary, true);
   std::vector<Vector2d> body;
   const double thick = rng.between(0.03, 0.15);
   const int steps = 12;
@@ -132,7 +132,7 @@ void channel(Rng& rng, Sketch& sketch) {
   }
   body.push_back({0.22, 0});
   std::reverse(body.begin(), body.end());
-  sketch.path(body, kBoundary, true);
+  sketch.path(body, SegmentKind::boundary, true);
 }
 
 /// Graded 1:50 towards a point or a line, which may lie on the boundary.
@@ -144,9 +144,9 @@ void graded(Rng& rng, Sketch& sketch) {
   sketch.filling.pattern = Filling::Pattern::cells;
   const std::vector<Vector2d> corners = box(-1, -1, 1, 1);
   if (at.y() == -1) {
-    sketch.path({corners[0], at, corners[1], corners[2], corners[3]}, kBoundary, true);
+    sketch.path({corners[0], at, corners[1], corners[2], corners[3]}, SegmentKind::boundary, true);
   } else {
-    sketch.path(corners, kBoundary, true);
+    sketch.path(corners, SegmentKind::boundary, true);
     if (rng.chance(0.5)) sketch.fixed(at);
   }
 }
@@ -155,19 +155,20 @@ void graded(Rng& rng, Sketch& sketch) {
 void pinched(Rng& rng, Sketch& sketch) {
   const double y = rng.between(-0.3, 0.3);
   if (rng.chance(0.3)) {  // two triangles or boxes tip to tip
-    sketch.path({{-1, -1}, {0, y}, {-1, 1}}, kBoundary, true);
-    sketch.path({{0, y}, {1, -1}, {1, 0.5}}, kBoundary, true);
+    sketch.path({{-1, -1}, {0, y}, {-1, 1}}, SegmentKind::boundary, true);
+    sketch.path({{0, y}, {1, -1}, {1, 0.5}}, SegmentKind::boundary, true);
     return;
   }
   const bool at_wall = rng.chance(0.5);
   if (at_wall)
-    sketch.path({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, y}}, kBoundary, true);
+    sketch.path({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, y}}, SegmentKind::boundary, true);
   else
-    sketch.path(box(-1, -1, 1, 1), kBoundary, true);
+    sketch.path(box(-1, -1, 1, 1), SegmentKind::boundary, true);
   double x = at_wall ? -1 : -0.7;
   for (int i = rng.range(1, 3); i > 0; --i) {  // a chain of diamonds, tip to tip
     const double width = rng.between(0.2, 0.5), height = rng.between(0.05, 0.4);
-    sketch.path({{x, y}, {x + width / 2, y - height}, {x + width, y}, {x + width / 2, y + height}}, kBoundary, true);
+    sketch.path({{x, y}, {x + width / 2, y - height}, {x + width, y}, {x + width / 2, y + height}},
+                SegmentKind::boundary, true);
     x += width;
   }
 }
@@ -183,41 +184,42 @@ void ribbon(Rng& rng, Sketch& sketch) {
     upper.push_back(Vector2d(x, y) + 0.5 * width * normal);
   }
   lower.insert(lower.end(), upper.rbegin(), upper.rend());
-  sketch.path(lower, kBoundary, true);
+  sketch.path(lower, SegmentKind::boundary, true);
 }
 
 /// Embedded lines: a star of slits, a loop, a chain to the wall, lines that cross; and embedded points.
 void embedded(Rng& rng, Sketch& sketch) {
-  sketch.path({{-1, -1}, {0, -1}, {1, -1}, {1, 1}, {-1, 1}}, kBoundary, true);
+  sketch.path({{-1, -1}, {0, -1}, {1, -1}, {1, 1}, {-1, 1}}, SegmentKind::boundary, true);
   const Vector2d star(-0.5, -0.4);
   const int rays = rng.range(0, 7);
   const double start = rng.between(0, 2 * kPi);
   for (int i = 0; i < rays; ++i)
     sketch.path({star, star + polar(rng.between(0.1, 0.45), start + 2 * kPi * (i + rng.between(0, 0.6)) / rays)},
-                kConstraint, false);
+                SegmentKind::constraint, false);
   if (rng.chance(0.6)) {
     const int corners = rng.range(3, 9);
     const double thinnest = rng.between(0.3, 1);
-    sketch.path(around(rng, {0.5, 0.5}, 0.4, corners, thinnest), kConstraint, true);
+    sketch.path(around(rng, {0.5, 0.5}, 0.4, corners, thinnest), SegmentKind::constraint, true);
   }
   if (rng.chance(0.6))
-    sketch.path({{0, -1}, {rng.between(0.05, 0.2), -0.6}, {0.1, rng.between(-0.3, -0.1)}}, kConstraint, false);
+    sketch.path({{0, -1}, {rng.between(0.05, 0.2), -0.6}, {0.1, rng.between(-0.3, -0.1)}}, SegmentKind::constraint,
+                false);
   if (rng.chance(0.5)) {  // two lines that cross at a node
     const Vector2d centre(0.5, -0.5), a = polar(rng.between(0.1, 0.38), rng.between(0, 3)),
                                       b = polar(0.3, rng.between(3.3, 6));
-    sketch.path({centre - a, centre, centre + a}, kConstraint, false);
-    sketch.path({centre - b, centre, centre + b}, kConstraint, false);
+    sketch.path({centre - a, centre, centre + a}, SegmentKind::constraint, false);
+    sketch.path({centre - b, centre, centre + b}, SegmentKind::constraint, false);
   }
-  if (rng.chance(0.5)) sketch.path({{1, 1}, {0.95, 0.95}}, kConstraint, false);  // into the corner
+  if (rng.chance(0.5)) sketch.path({{1, 1}, {0.95, 0.95}}, SegmentKind::constraint, false);  // into the corner
   for (int i = rng.range(0, 4); i > 0; --i) sketch.fixed({rng.between(-0.9, -0.1), rng.between(0.2, 0.9)});
 }
 
 /// Several materials: a grid of lines or nested loops from wall to wall.
 void materials(Rng& rng, Sketch& sketch) {
   if (rng.chance(0.5)) {
-    sketch.path(around(rng, {0, 0}, 1, rng.range(5, 24), 0.9), kBoundary, true);
+    sketch.path(around(rng, {0, 0}, 1, rng.range(5, 24), 0.9), SegmentKind::boundary, true);
     for (double radius = 0.75; radius > 0.2; radius -= rng.between(0.1, 0.4))
-      sketch.path(around(rng, {0, 0}, radius, rng.range(4, 24), 0.9), kConstraint, true);
+      sketch.path(around(rng, {0, 0}, radius, rng.range(4, 24), 0.9), SegmentKind::constraint, true);
     return;
   }
   const std::vector<double> x{-1, rng.between(-0.8, -0.1), rng.between(0, 0.8), 1};
@@ -226,16 +228,18 @@ void materials(Rng& rng, Sketch& sketch) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const int here = sketch.node({x[i], y[j]});
       const bool rim_x = j == 0 || j + 1 == y.size(), rim_y = i == 0 || i + 1 == x.size();
-      if (i + 1 < x.size()) sketch.line(here, sketch.node({x[i + 1], y[j]}), rim_x ? kBoundary : kConstraint);
-      if (j + 1 < y.size()) sketch.line(here, sketch.node({x[i], y[j + 1]}), rim_y ? kBoundary : kConstraint);
+      if (i + 1 < x.size())
+        sketch.line(here, sketch.node({x[i + 1], y[j]}), rim_x ? SegmentKind::boundary : SegmentKind::constraint);
+      if (j + 1 < y.size())
+        sketch.line(here, sketch.node({x[i], y[j + 1]}), rim_y ? SegmentKind::boundary : SegmentKind::constraint);
     }
 }
 
 /// An island in a hole in a plate: two parts.
 void island(Rng& rng, Sketch& sketch) {
-  sketch.path(box(-1, -1, 1, 1), kBoundary, true);
-  sketch.path(around(rng, {0, 0}, 0.8, rng.range(6, 20), 0.9), kBoundary, true);
-  sketch.path(around(rng, {0, 0}, 0.65, rng.range(3, 12), rng.between(0.4, 1)), kBoundary, true);
+  sketch.path(box(-1, -1, 1, 1), SegmentKind::boundary, true);
+  sketch.path(around(rng, {0, 0}, 0.8, rng.range(6, 20), 0.9), SegmentKind::boundary, true);
+  sketch.path(around(rng, {0, 0}, 0.65, rng.range(3, 12), rng.between(0.4, 1)), SegmentKind::boundary, true);
 }
 
 struct Kind {

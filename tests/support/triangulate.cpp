@@ -247,8 +247,8 @@ bool Mesher::recover(int from, int to, SegmentKind kind) {
     }
   }
   const Edge e = find(from, to), o = twin(e);
-  triangles_[e.triangle].kind[e.side] |= kind;
-  triangles_[o.triangle].kind[o.side] |= kind;
+  triangles_[e.triangle].kind[e.side] |= std::uint8_t(kind);
+  triangles_[o.triangle].kind[o.side] |= std::uint8_t(kind);
   return true;
 }
 
@@ -277,7 +277,7 @@ std::optional<Triangulation> Mesher::carve() const {
     for (int i = 0; i < 3; ++i) {
       const int other = triangles_[queue[k]].across[i];
       if (other < 0) continue;
-      const int there = depth[queue[k]] ^ (triangles_[queue[k]].kind[i] & kBoundary);
+      const int there = depth[queue[k]] ^ (triangles_[queue[k]].kind[i] & std::uint8_t(SegmentKind::boundary));
       if (depth[other] >= 0 && depth[other] != there) return std::nullopt;
       if (depth[other] < 0) {
         depth[other] = there;
@@ -291,7 +291,8 @@ std::optional<Triangulation> Mesher::carve() const {
     for (int i = 0; i < 3; ++i) {
       const int a = triangles_[t].node[i], b = triangles_[t].node[(i + 1) % 3], other = triangles_[t].across[i];
       const bool seen_from_both = other >= 0 && depth[other] == 1;
-      if ((triangles_[t].kind[i] & kConstraint) && (a < b || !seen_from_both)) result.constraints.push_back({a, b});
+      if ((triangles_[t].kind[i] & std::uint8_t(SegmentKind::constraint)) && (a < b || !seen_from_both))
+        result.constraints.push_back({a, b});
     }
   }
   return result;
