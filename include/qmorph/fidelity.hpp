@@ -15,7 +15,7 @@ struct Spread {
   Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< of the largest
 };
 
-/// Of the curved surfaces alone; all 0 without any. Distances are in edges: over the mean length of the edges there.
+/// Of curved surfaces; all 0 without any. Distances are in edges: over the mean length of the edges there.
 struct Fidelity {
   std::size_t quads = 0;      ///< on curved surfaces
   Spread node, side, centre;  ///< distances of nodes, middles of edges, centres of quads from the input's triangles
@@ -29,6 +29,8 @@ class FidelityAccumulator {
  public:
   /// Adds a surface, if it is curved. Cost: linear.
   void add(const Patch& before, const QuadMesh& after);
+  /// Adds a surface, be it flat. `source` of the mesh may be all kNone; then the cost is n log n.
+  void add_any(const Patch& before, const QuadMesh& after);
   void add(const FidelityAccumulator& other);
   Fidelity result() const;
 

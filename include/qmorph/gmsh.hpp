@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "qmorph/error.hpp"
 #include "qmorph/fidelity.hpp"
 #include "qmorph/options.hpp"
+#include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
 #include "qmorph/report.hpp"
 
@@ -39,7 +41,7 @@ struct SurfaceReport {
   std::size_t triangles_in = 0, quads_in = 0;
   std::size_t triangles_out = 0, quads_out = 0;
   Quality quality;              ///< of what came out; all defaults for left
-  Fidelity fidelity;            ///< of a curved surface that was converted
+  Fidelity fidelity;            ///< of a curved surface that was converted, or of one measured against another
   std::vector<PoorQuad> poor;   ///< why those of its quads that are poor are so; rows count through the surface's parts
   ConversionReport conversion;  ///< of converted: what was done
   int image_of = 0;  ///< the surface whose quads it has, if it is periodic with one that was converted; else 0
@@ -51,7 +53,7 @@ struct ModelReport {
   std::vector<SurfaceReport> surfaces;  ///< by tag; surfaces without an element are not listed
   std::vector<std::string> warnings;
   Quality total;      ///< of the converted and the all-quad surfaces together
-  Fidelity fidelity;  ///< of the converted curved surfaces together
+  Fidelity fidelity;  ///< of those surfaces that have one together
   double read_seconds = 0, convert_seconds = 0, check_seconds = 0, replace_seconds = 0;
 
   std::size_t count(SurfaceOutcome outcome) const;
@@ -96,7 +98,13 @@ ModelReport improve_quads(const Options& options = {}, const std::vector<int>& s
 
 /// Figures of surfaces as they are; nothing changes. Surfaces come out as already_quads, whatever they consist of, those
 /// that have no figures (not a manifold, no orientation) with a reason.
-ModelReport measure_surfaces(const std::vector<int>& surfaces = {});
+/// \param before surfaces by tag, as read_surfaces() gives them: where one of the same tag is given, the report has its `fidelity` to that,
+///        flat or curved
+ModelReport measure_surfaces(const std::vector<int>& surfaces = {}, const std::map<int, Patch>& before = {});
+
+/// Surfaces of the current model by tag, each as one patch without constraints, to measure another mesh of them against.
+/// Those that have no orientation or are no manifolds are not there.
+std::map<int, Patch> read_surfaces(const std::vector<int>& surfaces = {});
 
 /// Splits edges of curves, and the triangles beside them, so that every region (see `convert()`) gets an even number of
 /// sides: `recombine()` leaves no triangle then. It is the only call that changes curves. Existing nodes stay.

@@ -59,8 +59,8 @@ kernel::Mesh work_on_part(const LaidOut& part, const Options& options, Task task
   const Region region = piece.region(chart.flat());
   if (task == Task::convert) return qmorph::convert_region(region, plane, options, report, record);
   kernel::Mesh mesh = piece.mesh(chart.flat());
-  const kernel::Mesh input = wants_stages(options) ? mesh : kernel::Mesh();
-  ImproveStart start = start_improving(region, std::move(mesh), plane, options);
+  const kernel::Mesh input = mesh;
+  const ImproveStart start = start_improving(region, std::move(mesh), plane, options);
   return improve_region(start, input, plane, options, report, record);
 }
 

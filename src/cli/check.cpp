@@ -4,6 +4,21 @@
 
 namespace qmorph::cli {
 
+namespace {
+
+/// "0.21 edges off at (1, 2, 0)" of whatever is farthest off, if that is too far.
+std::string too_far(const Fidelity& fidelity, double most) {
+  const Spread* worst = &fidelity.node;
+  for (const Spread* spread : {&fidelity.side, &fidelity.centre, &fidelity.back})
+    if (spread->max > worst->max) worst = spread;
+  if (!(worst->max > most)) return "";
+  const Eigen::Vector3d& p = worst->where;
+  return fmt::format("{:.3g} edges off at ({:g}, {:g}, {:g}), and at most {:g} is asked for", worst->max, p.x(), p.y(),
+                     p.z(), most);
+}
+
+}  // namespace
+
 std::vector<std::string> find_reasons(const ModelReport& model, const Thresholds& thresholds) {
   std::vector<std::string> reasons;
   for (const SurfaceReport& surface : model.surfaces) {
@@ -19,6 +34,7 @@ std::vector<std::string> find_reasons(const ModelReport& model, const Thresholds
     if (thresholds.no_triangles && surface.triangles_in)
       say(fmt::format("{} triangle{}, and none is allowed", surface.triangles_in,
                       surface.triangles_in == 1 ? "" : "s"));
+    if (const std::string off = too_far(surface.fidelity, thresholds.max_distance); !off.empty()) say(off);
   }
   if (model.total.irregular_share() > thresholds.max_irregular)
     reasons.push_back(fmt::format("irregular share of interior nodes {:.3f}, and at most {:g} is asked for",

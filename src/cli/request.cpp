@@ -68,6 +68,8 @@ constexpr std::array kRows = {
     Row{"min-sj", "--min-sj X", 1, "for --check: every scaled Jacobian above X (default 0)"},
     Row{"max-irregular", "--max-irregular X", 1, "for --check: irregular share of interior nodes at most X (0 to 1)"},
     Row{"no-triangles", "--no-triangles", 0, "for --check: not one triangle"},
+    Row{"against", "--against FILE", 1, "for --check: the triangles that IN was made from, to measure distances to"},
+    Row{"max-distance", "--max-distance X", 1, "for --check: nowhere farther from them than X edges"},
     Row{"help", "--help", 0, "show this text"},
     Row{"version", "--version", 0, "show the version"},
 };
@@ -284,6 +286,8 @@ Request parse(const std::vector<std::string>& arguments) {
   auto* min_sj = app.add_option("--min-sj", request.thresholds.min_scaled_jacobian)->check(CLI::Range(-1.0, 1.0));
   auto* irregular = app.add_option("--max-irregular", request.thresholds.max_irregular)->check(CLI::Range(0.0, 1.0));
   auto* no_triangles = app.add_flag("--no-triangles", request.thresholds.no_triangles);
+  auto* against = app.add_option("--against", request.against);
+  auto* distance = app.add_option("--max-distance", request.thresholds.max_distance)->check(CLI::NonNegativeNumber);
   app.add_option("--nt", request.threads)->check(whole_number("-nt"));
   app.add_option("--v", request.verbosity)->check(whole_number("-v"));
   std::vector<std::string> surfaces;
@@ -321,8 +325,9 @@ Request parse(const std::vector<std::string>& arguments) {
   if (volumes) request.dimension = 3;
   if (*elements && request.consumer != "calculix" && request.consumer != "abaqus")
     throw UsageError("--elements goes with --for calculix or abaqus");
-  if (!request.check && (*min_sj || *irregular || *no_triangles))
-    throw UsageError("--min-sj, --max-irregular and --no-triangles go with --check");
+  if (!request.check && (*min_sj || *irregular || *no_triangles || *against || *distance))
+    throw UsageError("--min-sj, --max-irregular, --no-triangles, --against and --max-distance go with --check");
+  if (*distance && !*against) throw UsageError("--max-distance: from what? (--against FILE)");
   if (request.check) refuse_files_of_check(request);
   if (request.all_quad && request.cleanup_only)
     throw UsageError("--all-quad is for the conversion of triangles; --cleanup-only takes curves as they are");

@@ -1,6 +1,7 @@
 #pragma once
 /// From words on the command line to what is wanted.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@ struct Thresholds {
   double min_scaled_jacobian = 0;  ///< at or below which a quad is bad
   double max_irregular = 1;        ///< share of the interior nodes
   bool no_triangles = false;
+  double max_distance = std::numeric_limits<double>::infinity();  ///< from another mesh, in edges
 };
 
 /// One call of the command.
@@ -23,6 +25,7 @@ struct Request {
   std::string consumer;                        ///< of --for
   std::string elements = "CPS";                ///< family of a deck's surface elements
   Thresholds thresholds;
+  std::string against;  ///< file with the mesh that --check measures distances to, or empty
   std::vector<int> surfaces;
   std::string smoothing;              ///< the method, or empty
   std::vector<std::string> settings;  ///< NAME=VALUE for set_option()

@@ -228,16 +228,26 @@ adapter::OpenedModel open(const Call& call, const adapter::OutputPlan& plan) {
   return opened;
 }
 
+/// The surfaces of the file that the mesh is measured against.
+std::map<int, Patch> read_reference(const Request& request) {
+  if (request.against.empty()) return {};
+  adapter::check_readable(request.against);
+  const adapter::Session session(request.gmsh_arguments);
+  adapter::open_model(request.against, {.no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
+  return session::read_surfaces();
+}
+
 int check_file(const Call& call) {
   const Request& request = call.request;
   adapter::check_readable(request.input);
   ModelReport model;
   {
     const StdoutAsStderr redirected;
+    const std::map<int, Patch> before = read_reference(request);
     adapter::Session session(request.gmsh_arguments);
     if (call.process.slate) session.leave();
     open_input(call, {.merged = request.merged, .no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
-    model = session::measure_surfaces(request.surfaces);
+    model = session::measure_surfaces(request.surfaces, before);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', call.out);

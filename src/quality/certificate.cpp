@@ -137,7 +137,7 @@ class Explanation {
     if (!result_) result_.emplace(before_, after_);
     Corners<4> p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = after_.points[after_.quads[quad][i]];
-    return space::is_folded_under(result_->surface(), p, result_->triangle(element));
+    return space::is_folded_under(result_->surface(), result_->normals(), p, result_->triangle(element));
   }
 
   const Patch& before_;

@@ -69,8 +69,8 @@ std::string check_line(const ModelReport& model) {
     triangles += surface.triangles_in;
     quads += surface.quads_in;
   }
-  return fmt::format("{} on {}; {}", elements(triangles, quads), counted(model.surfaces.size(), "surface"),
-                     figures(model.total));
+  return fmt::format("{} on {}; {}{}", elements(triangles, quads), counted(model.surfaces.size(), "surface"),
+                     figures(model.total), distance(model.fidelity));
 }
 
 std::string total_line(const ModelReport& model, const std::string& output, double seconds) {

@@ -26,6 +26,7 @@ Background::Background(std::span<const Vector3d> points, std::span<const Triangl
   };
   opposite_ = link_sides(points.size(), 3 * Background::triangles(), ends, barriers);
   add_fans();
+  find_smooth();
 }
 
 void Background::add_fans() {
@@ -46,6 +47,16 @@ void Background::add_fans() {
     });
     fan_normals_.push_back(unit(sum));
   }
+}
+
+void Background::find_smooth() {
+  constexpr double kLeastCosine = 0.94;  // 20 degrees
+  std::vector<char> is_smooth(fan_normals_.size(), 1);
+  for (Index side = 0; side < fans_.size(); ++side)
+    if (!(normals_[side / 3].dot(fan_normals_[fans_[side]]) > kLeastCosine)) is_smooth[fans_[side]] = 0;
+  is_smooth_.resize(triangles_.size());
+  for (Index t = 0; t < triangles(); ++t)
+    is_smooth_[t] = is_smooth[fan(t, 0)] && is_smooth[fan(t, 1)] && is_smooth[fan(t, 2)];
 }
 
 Vector3d Background::normal_near(Index t) const {

@@ -55,6 +55,9 @@ class Background {
   /// Unit normal that changes from node to node, at the point of t with these weights.
   Eigen::Vector3d smooth_normal(Index t, const Eigen::Vector3d& weights) const;
 
+  /// The triangles around the corners of t all have nearly the normal of their corner: nobody has to look closer.
+  bool is_smooth(Index t) const { return is_smooth_[t]; }
+
   /// Triangles around a node that are joined across edges that are no barriers make a fan: a node has several where barriers
   /// or touching parts of the boundary meet. Number of the fan of corner i of t, from 0 to fans() - 1.
   Index fan(Index t, int i) const { return fans_[3 * t + i]; }
@@ -74,6 +77,7 @@ class Background {
 
  private:
   void add_fans();
+  void find_smooth();
   double height2(const Foot& foot, int i) const;
   static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
@@ -84,6 +88,7 @@ class Background {
   std::vector<Eigen::Vector3d> normals_;      ///< by triangle
   std::vector<Index> fans_;                   ///< by corner
   std::vector<Eigen::Vector3d> fan_normals_;  ///< by fan
+  std::vector<char> is_smooth_;               ///< by triangle
 };
 
 template <class Visit>

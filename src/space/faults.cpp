@@ -57,7 +57,7 @@ template <std::size_t N>
 std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes) {
   const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
   const std::size_t corner = bad_corner(result.sines(element, p, nodes));
-  if (corner < N && !is_folded_under(result.surface(), p, result.triangle(element)))
+  if (corner < N && !is_folded_under(result.surface(), result.normals(), p, result.triangle(element)))
     return defect_at("an element has a corner that is not convex", p[corner]);
   for (std::size_t i = 0; i < N; ++i) {
     const Index row = result.mesh().source[nodes[i]];
@@ -72,20 +72,12 @@ std::optional<Defect> look_at(const Result& result, Index element, const std::ar
 }  // namespace
 
 template <std::size_t N>
-bool is_valid_on(const Background& surface, const Corners<N>& p, Index hint) {
-  return scaled_jacobian(p, normals_on(surface, p, hint)) > kLeastSine<N>;
-}
-
-template bool is_valid_on(const Background&, const Corners<3>&, Index);
-template bool is_valid_on(const Background&, const Corners<4>&, Index);
-
-template <std::size_t N>
-bool is_folded_under(const Background& surface, const Corners<N>& p, Index hint) {
+bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint) {
   Vector3d centre = Vector3d::Zero();
   for (const Vector3d& corner : p) centre += corner / double(N);
   std::set<Index> near;
   const auto add = [&](const Vector3d& point) {
-    const Index t = surface.walk(point, hint).triangle;
+    const Index t = normals.closest(point, hint).triangle;
     near.insert(t);
     for (int i = 0; i < 3; ++i)
       if (surface.neighbour(t, i) != kNone) near.insert(surface.neighbour(t, i));
@@ -97,8 +89,8 @@ bool is_folded_under(const Background& surface, const Corners<N>& p, Index hint)
   return std::any_of(near.begin(), near.end(), [&](Index t) { return !(surface.normal(t).dot(mean) > 0); });
 }
 
-template bool is_folded_under(const Background&, const Corners<3>&, Index);
-template bool is_folded_under(const Background&, const Corners<4>&, Index);
+template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<3>&, Index);
+template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<4>&, Index);
 
 std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept) {
   const Result result(before, after);

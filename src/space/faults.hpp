@@ -10,14 +10,10 @@
 
 namespace qmorph::space {
 
-/// All corners are good, by more than what elements in a plane need.
-template <std::size_t N>
-bool is_valid_on(const Background& surface, const Corners<N>& p, Index hint);
-
 /// The surface turns by more than a right angle against its mean normal within the element: there the input is folded, or has
 /// triangles that are bad themselves, and an element may have no way to be good.
 template <std::size_t N>
-bool is_folded_under(const Background& surface, const Corners<N>& p, Index hint);
+bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint);
 
 /// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned over (not
 /// those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface, handles or

@@ -122,7 +122,10 @@ Spread FidelityAccumulator::Values::spread() const {
 }
 
 void FidelityAccumulator::add(const Patch& before, const QuadMesh& after) {
-  if (plane_normal(before)) return;
+  if (!plane_normal(before)) add_any(before, after);
+}
+
+void FidelityAccumulator::add_any(const Patch& before, const QuadMesh& after) {
   const space::Result result(before, after);
   const space::ElementSides& sides = result.sides();
   const auto& points = after.points;

@@ -20,8 +20,9 @@ bool is_folded_under(const MeshOnSurface& mesh, Index f) {
   const chart::Face& face = mesh.mesh().faces[f];
   const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh.point(face[i]); };
   const Index hint = mesh.mesh().near[f];
-  return chart::degree(face) == 4 ? is_folded_under<4>(mesh.whole(), {at(0), at(1), at(2), at(3)}, hint)
-                                  : is_folded_under<3>(mesh.whole(), {at(0), at(1), at(2)}, hint);
+  return chart::degree(face) == 4
+             ? is_folded_under<4>(mesh.whole(), mesh.whole_normals(), {at(0), at(1), at(2), at(3)}, hint)
+             : is_folded_under<3>(mesh.whole(), mesh.whole_normals(), {at(0), at(1), at(2)}, hint);
 }
 
 }  // namespace
@@ -32,12 +33,12 @@ chart::SurfaceMesh improve(chart::SurfaceMesh mesh, const std::vector<chart::Edg
   {
     MeshOnSurface view(mesh, creases, surface, *region.background);
     smooth(view, options);
-    raise_poor(view, options);
+    smooth_near(view, options, raise_poor(view, options));
     if (find_poor(view, 0).empty()) return mesh;
   }
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
   MeshOnSurface view(mesh, creases, surface, *region.background);
-  raise_poor(view, options);
+  smooth_near(view, options, raise_poor(view, options));
   for (const PoorFace& poor : find_poor(view, 0))
     if (!is_folded_under(view, poor.face)) {
       const Eigen::Vector3d& place = view.point(view.node(4 * poor.face));

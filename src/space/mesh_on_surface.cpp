@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "space/surface_normals.hpp"
-
 namespace qmorph::space {
 namespace {
 
@@ -64,6 +62,7 @@ MeshOnSurface::MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Inde
     : mesh_(mesh),
       surface_(surface),
       whole_(whole),
+      whole_normals_(whole),
       opposite_(chart::opposite_sides(mesh)),
       first_side_(mesh.points.size(), kNone),
       is_free_(mesh.points.size(), 0),
@@ -158,6 +157,8 @@ double MeshOnSurface::smallest_sine(Index f) const {
 
 bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
   const Face& face = mesh_.faces[f];
+  for (Index i = 0; i < chart::degree(face); ++i)
+    if (!whole_.is_smooth(mesh_.on[face[i]])) return false;
   const auto is_above = [&](const auto& p, const auto& n) { return is_clear(p, n) && scaled_jacobian(p, n) > sine; };
   return chart::degree(face) == 4 ? is_above(corners<4>(face), normals<4>(f))
                                   : is_above(corners<3>(face), normals<3>(f));
@@ -165,8 +166,8 @@ bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
 
 double MeshOnSurface::exact_sine(Index f) const {
   const Face& face = mesh_.faces[f];
-  return chart::degree(face) == 4 ? scaled_jacobian_on(whole_, corners<4>(face), mesh_.near[f])
-                                  : scaled_jacobian_on(whole_, corners<3>(face), mesh_.near[f]);
+  const auto sine = [&](const auto& p) { return scaled_jacobian(p, whole_normals_.of(p, mesh_.near[f])); };
+  return chart::degree(face) == 4 ? sine(corners<4>(face)) : sine(corners<3>(face));
 }
 
 double MeshOnSurface::smallest_sine_around(Index v) const {

@@ -10,6 +10,7 @@
 #include "smoothing/node_energy.hpp"
 #include "space/background.hpp"
 #include "space/corners.hpp"
+#include "space/surface_normals.hpp"
 
 namespace qmorph::space {
 
@@ -36,6 +37,7 @@ class MeshOnSurface {
 
   const Mesh& mesh() const { return mesh_; }
   const Background& surface() const { return surface_; }
+  const SurfaceNormals& whole_normals() const { return whole_normals_; }
   const Background& whole() const { return whole_; }
   Index nodes() const { return Index(mesh_.points.size()); }
   Index faces() const { return Index(mesh_.faces.size()); }
@@ -61,7 +63,7 @@ class MeshOnSurface {
   Index node(Index side) const { return mesh_.faces[side / 4][side % 4]; }
   Index opposite(Index side) const { return opposite_[side]; }
 
-  /// Smallest corner sine of a face, signed by the surface's normals at its nodes: nearly scaled_jacobian_on(), and cheap.
+  /// Smallest corner sine of a face, signed by the surface's normals at its nodes: nearly exact_sine(), and cheap.
   double smallest_sine(Index face) const;
   /// All corners have larger sines than this, and turn so clearly the way the surface does at the nodes that looking closer is
   /// not needed.
@@ -100,6 +102,7 @@ class MeshOnSurface {
 
   Mesh& mesh_;
   const Background &surface_, &whole_;
+  const SurfaceNormals whole_normals_;
   std::vector<Index> opposite_;    ///< by side
   std::vector<Index> first_side_;  ///< by node: the one that has nothing before it, if there is a gap
   std::vector<char> is_free_;

@@ -104,19 +104,22 @@ std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine) {
   return poor;
 }
 
-void raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options) {
+std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options) {
   constexpr int kPasses = 3;
   constexpr std::size_t kFewLooks = 20'000;
   Compass compass(mesh, kFewLooks + 2 * std::size_t(mesh.faces()));
+  std::vector<Index> moved;
   for (int pass = 0; pass < kPasses; ++pass) {
-    bool moved = false;
+    const std::size_t before = moved.size();
     for (const PoorFace& poor : find_poor(mesh, options.target_quality)) {
       const Index degree = chart::degree(mesh.mesh().faces[poor.face]);
       for (Index i = 0; i < degree && compass.has_looks(); ++i)
-        if (compass.raise(mesh.node(4 * poor.face + i), poor.sine <= kStraightSine)) moved = true;
+        if (const Index v = mesh.node(4 * poor.face + i); compass.raise(v, poor.sine <= kStraightSine))
+          moved.push_back(v);
     }
-    if (!moved) break;
+    if (moved.size() == before) break;
   }
+  return moved;
 }
 
 }  // namespace qmorph::space

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "space/result.hpp"
 
-#include "space/surface_normals.hpp"
+#include <algorithm>
 
 namespace qmorph::space {
 namespace {
@@ -23,6 +23,7 @@ std::vector<std::array<Index, 2>> kept_constraints(const Patch& before, const Qu
 Result::Result(const Patch& before, const QuadMesh& after)
     : after_(after),
       reference_(before),
+      normals_(reference_.surface),
       sides_(after.points.size(), after.triangles, after.quads, kept_constraints(before, after)),
       triangle_(locate({reference_.surface, after.points, after.triangles, after.quads, after.source}, sides_)),
       foot_(after.points.size()),
@@ -34,13 +35,13 @@ Result::Result(const Patch& before, const QuadMesh& after)
   for (Index side = 0; side < sides_.slots(); ++side) {
     const Index v = sides_.node(side);
     if (v == kNone || !is_inside[v] || foot_[v].triangle != kNone) continue;
-    foot_[v] = surface().walk(after.points[v], triangle_[side / 4]);
+    foot_[v] = normals_.closest(after.points[v], triangle_[side / 4]);
     normal_[v] = surface().smooth_normal(foot_[v].triangle, foot_[v].weights);
   }
 }
 
 Foot Result::foot(Index element, Index node) const {
-  return foot_[node].triangle == kNone ? surface().walk(after_.points[node], triangle_[element]) : foot_[node];
+  return foot_[node].triangle == kNone ? normals_.closest(after_.points[node], triangle_[element]) : foot_[node];
 }
 
 template <std::size_t N>
@@ -53,9 +54,19 @@ CornerNormals<N> Result::normals_at_nodes(Index element, const std::array<Index,
 }
 
 template <std::size_t N>
+bool Result::is_smooth_at(Index element, const std::array<Index, N>& nodes) const {
+  return surface().is_smooth(triangle_[element]) && std::all_of(nodes.begin(), nodes.end(), [&](Index v) {
+           return foot_[v].triangle == kNone || surface().is_smooth(foot_[v].triangle);
+         });
+}
+
+template <std::size_t N>
 std::array<double, N> Result::sines(Index element, const Corners<N>& p, const std::array<Index, N>& nodes) const {
-  const CornerNormals<N> rough = normals_at_nodes(element, nodes);
-  return corner_sines(p, is_clear(p, rough) ? rough : normals_on(surface(), p, triangle_[element]));
+  if (is_smooth_at(element, nodes)) {
+    const CornerNormals<N> rough = normals_at_nodes(element, nodes);
+    if (is_clear(p, rough)) return corner_sines(p, rough);
+  }
+  return corner_sines(p, normals_.of(p, triangle_[element]));
 }
 
 template std::array<double, 3> Result::sines(Index, const Corners<3>&, const std::array<Index, 3>&) const;

@@ -7,6 +7,7 @@
 #include "space/corners.hpp"
 #include "space/element_sides.hpp"
 #include "space/reference.hpp"
+#include "space/surface_normals.hpp"
 
 namespace qmorph::space {
 
@@ -18,6 +19,7 @@ class Result {
   const QuadMesh& mesh() const { return after_; }
   const ElementSides& sides() const { return sides_; }
   const Background& surface() const { return reference_.surface; }
+  const SurfaceNormals& normals() const { return normals_; }
   /// Rows of the patch's triangles come first in the surface.
   Index triangle(Index element) const { return triangle_[element]; }
   /// Of a node that lies inside: the closest point of the surface. At the boundary and at constraints there may be several, and
@@ -32,10 +34,13 @@ class Result {
 
  private:
   template <std::size_t N>
+  bool is_smooth_at(Index element, const std::array<Index, N>& nodes) const;
+  template <std::size_t N>
   CornerNormals<N> normals_at_nodes(Index element, const std::array<Index, N>& nodes) const;
 
   const QuadMesh& after_;
   Reference reference_;
+  SurfaceNormals normals_;
   ElementSides sides_;
   std::vector<Index> triangle_;  ///< by element
   std::vector<Foot> foot_;       ///< by node

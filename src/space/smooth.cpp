@@ -24,8 +24,15 @@ Vec2 step_of(const Energy& energy, double edge) {
 
 class Smoother {
  public:
-  Smoother(MeshOnSurface& mesh, const SmoothingOptions& options)
-      : mesh_(mesh), options_(options), active_(mesh.nodes(), 1) {}
+  Smoother(MeshOnSurface& mesh, const SmoothingOptions& options, bool all_active)
+      : mesh_(mesh), options_(options), active_(mesh.nodes(), all_active) {}
+
+  void wake_around(Index v) {
+    mesh_.for_sides_around(v, [&](Index first) {
+      for (Index side = mesh_.next(first); side != first; side = mesh_.next(side)) active_[mesh_.node(side)] = 1;
+    });
+    active_[v] = 1;
+  }
 
   void run() {
     for (int pass = 0; pass < options_.iterations; ++pass)
@@ -137,6 +144,13 @@ class Smoother {
 
 }  // namespace
 
-void smooth(MeshOnSurface& mesh, const SmoothingOptions& options) { Smoother(mesh, options).run(); }
+void smooth(MeshOnSurface& mesh, const SmoothingOptions& options) { Smoother(mesh, options, true).run(); }
+
+void smooth_near(MeshOnSurface& mesh, const SmoothingOptions& options, std::span<const Index> nodes) {
+  if (nodes.empty()) return;
+  Smoother smoother(mesh, options, false);
+  for (Index v : nodes) smoother.wake_around(v);
+  smoother.run();
+}
 
 }  // namespace qmorph::space

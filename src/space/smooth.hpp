@@ -11,4 +11,7 @@ namespace qmorph::space {
 /// worst around was, unless it stays good. Cost: linear; after the first pass only nodes near one that moved are visited.
 void smooth(MeshOnSurface& mesh, const SmoothingOptions& options);
 
+/// The same, but that it begins with these nodes and their neighbours alone.
+void smooth_near(MeshOnSurface& mesh, const SmoothingOptions& options, std::span<const Index> nodes);
+
 }  // namespace qmorph::space

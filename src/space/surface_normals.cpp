@@ -2,6 +2,7 @@
 #include "space/surface_normals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -117,23 +118,48 @@ class Search {
 
 }  // namespace
 
+SurfaceNormals::SurfaceNormals(const Background& surface) : surface_(surface) {
+  bool is_smooth = true;
+  for (Index t = 0; t < surface.triangles() && is_smooth; ++t) is_smooth = surface.is_smooth(t);
+  if (is_smooth) return;
+  tree_.emplace(surface.points(), surface.all_corners());
+  part_.assign(surface.triangles(), kNone);
+  std::vector<Index> queue;
+  for (Index first = 0; first < surface.triangles(); ++first) {
+    if (part_[first] != kNone) continue;
+    part_[first] = first;
+    queue.assign(1, first);
+    for (std::size_t k = 0; k < queue.size(); ++k)
+      for (int i = 0; i < 3; ++i)
+        if (const Index t = surface.neighbour(queue[k], i); t != kNone && part_[t] == kNone)
+          part_[t] = first, queue.push_back(t);
+  }
+}
+
+Foot SurfaceNormals::closest(const Vector3d& p, Index hint) const {
+  const Foot walked = surface_.walk(p, hint);
+  if (!tree_ || surface_.is_smooth(walked.triangle)) return walked;
+  const Foot found = tree_->closest(p, std::sqrt(walked.distance2), part_, part_[hint]);
+  return found.triangle == kNone ? walked : found;
+}
+
 template <std::size_t N>
-CornerNormals<N> normals_on(const Background& surface, const Corners<N>& p, Index hint) {
+CornerNormals<N> SurfaceNormals::of(const Corners<N>& p, Index hint) const {
   constexpr double kToCentre = 0.25;
   const Vector3d centre = centre_of(p);
-  const Index middle = surface.walk(centre, hint).triangle;
+  const Index middle = closest(centre, hint).triangle;
   CornerNormals<N> normals;
-  normals.whole = surface.normal_near(middle);
+  normals.whole = surface_.normal_near(middle);
   for (std::size_t i = 0; i < N; ++i) {
-    normals.at[i] = surface.normal_near(surface.walk(p[i] + kToCentre * (centre - p[i]), middle).triangle);
+    normals.at[i] = surface_.normal_near(closest(p[i] + kToCentre * (centre - p[i]), middle).triangle);
     normals.whole += normals.at[i];
   }
   normals.whole = unit(normals.whole);
   return normals;
 }
 
-template CornerNormals<3> normals_on(const Background&, const Corners<3>&, Index);
-template CornerNormals<4> normals_on(const Background&, const Corners<4>&, Index);
+template CornerNormals<3> SurfaceNormals::of(const Corners<3>&, Index) const;
+template CornerNormals<4> SurfaceNormals::of(const Corners<4>&, Index) const;
 
 std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides) {
   return Search(mesh, sides).run();

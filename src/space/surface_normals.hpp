@@ -1,25 +1,36 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "space/background.hpp"
 #include "space/corners.hpp"
 #include "space/element_sides.hpp"
+#include "space/triangle_tree.hpp"
 
 namespace qmorph::space {
 
-/// Where an element is judged by the surface, from a triangle `hint` nearby: its corners by the triangles that are closest to points
-/// a quarter of the way to its centre, so that a corner on a crease is judged by its own side.
-template <std::size_t N>
-CornerNormals<N> normals_on(const Background& surface, const Corners<N>& p, Index hint);
+/// The normals of a surface by which elements on it are judged: at a corner that of the triangle closest to the point a quarter of the
+/// way to the element's centre, so that a corner on a crease is judged by its own side.
+class SurfaceNormals {
+ public:
+  /// The surface must outlive this. Cost: linear where it is smooth, else n log n.
+  explicit SurfaceNormals(const Background& surface);
 
-/// Scaled Jacobian by these normals.
-template <std::size_t N>
-double scaled_jacobian_on(const Background& surface, const Corners<N>& p, Index hint) {
-  return scaled_jacobian(p, normals_on(surface, p, hint));
-}
+  /// `hint` is a triangle nearby, on the same side of the barriers.
+  template <std::size_t N>
+  CornerNormals<N> of(const Corners<N>& p, Index hint) const;
+
+  /// The closest point of all on this side of the barriers, also where walks end in folds.
+  Foot closest(const Eigen::Vector3d& p, Index hint) const;
+
+ private:
+  const Background& surface_;
+  std::vector<Index> part_;           ///< of each triangle: parts are joined across sides that are no barriers
+  std::optional<TriangleTree> tree_;  ///< only for a surface that is not smooth
+};
 
 /// Elements on a surface, of which nothing is known but which nodes come from the input: `source` is the row of the surface's points
 /// of each node, or kNone. Empty: none does.

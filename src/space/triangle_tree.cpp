@@ -56,7 +56,7 @@ TriangleTree::TriangleTree(std::span<const Vector3d> points, std::span<const Bac
   for (std::size_t n = leaves_ - 1; n > 0; --n) boxes_[n] = boxes_[2 * n].merged(boxes_[2 * n + 1]);
 }
 
-Foot TriangleTree::closest(const Vector3d& p, double within) const {
+Foot TriangleTree::closest(const Vector3d& p, double within, std::span<const Index> label, Index only) const {
   Foot best;
   best.distance2 = within * within;
   std::array<std::pair<double, std::size_t>, 64> stack;  // nodes with the squared distances of their boxes
@@ -71,6 +71,7 @@ Foot TriangleTree::closest(const Vector3d& p, double within) const {
     if (node >= leaves_) {
       const std::size_t first = (node - leaves_) * kLeaf, last = std::min(first + kLeaf, order_.size());
       for (std::size_t i = first; i < last; ++i) {
+        if (!label.empty() && label[order_[i]] != only) continue;
         const auto& [a, b, c] = triangles_[order_[i]];
         const OnTriangle there = closest_on_triangle(p, points_[a], points_[b], points_[c]);
         if (there.distance2 < best.distance2) best = {there, order_[i]};

@@ -75,3 +75,32 @@ TEST_CASE("check: what asks for a file is refused, since it writes none") {
     CHECK(result.out.empty());
   }
 }
+
+TEST_CASE("check: how far a mesh is from the triangles that it came from, in edges") {
+  // Two squares at a right angle, in triangles and in quads; one node of the quads lies 0.1 off.
+  const TemporaryDirectory directory;
+  const std::vector<std::array<double, 3>> nodes = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}};
+  write_file(directory / "before.msh",
+             msh22(nodes, {"2 2 0 1 1 2 5", "2 2 0 1 1 5 4", "2 2 0 1 2 3 6", "2 2 0 1 2 6 5"}));
+  const std::vector<std::string> quads = {"3 2 0 1 1 2 5 4", "3 2 0 1 2 3 6 5"};
+  write_file(directory / "on.msh", msh22(nodes, quads));
+  std::vector<std::array<double, 3>> moved = nodes;
+  moved[5] = {1.1, 1, 1};
+  write_file(directory / "off.msh", msh22(moved, quads));
+  const auto check = [&](const char* file, const char* most) {
+    return run_qmorph({"--check", directory / file, "--against", directory / "before.msh", "--max-distance", most});
+  };
+  const Result on = check("on.msh", "0.001");
+  CAPTURE(on.err);
+  CHECK(on.status == 0);
+  CHECK(mentions(on.out, "centres 0.000 edges off the surface (at most 0.00)"));
+  const Result off = check("off.msh", "0.05");
+  CAPTURE(off.err);
+  CHECK(off.status == 6);
+  CHECK(mentions(off.err, "qmorph: surface 1: 0.0"));
+  CHECK(mentions(off.err, "edges off at (1.1, 1, 1), and at most 0.05 is asked for"));
+  CHECK(check("off.msh", "0.2").status == 0);
+  CHECK(mentions(run_qmorph({"--check", directory / "on.msh", "--max-distance", "1"}).err, "--against FILE"));
+  CHECK(run_qmorph({directory / "on.msh", "--against", directory / "before.msh"}).status == 1);
+  CHECK(run_qmorph({"--check", directory / "on.msh", "--against", directory / "none.msh"}).status == 2);
+}

@@ -6,30 +6,16 @@
 
 #include "qmorph/quality.hpp"
 #include "quality/shapes.hpp"
+#include "space/grids.hpp"
 #include "space/mesh_normals.hpp"
 #include "space/reference.hpp"
 #include "space/surface_normals.hpp"
-#include "space/surfaces.hpp"
 
 namespace {
 
 using namespace qmorph;
 using namespace qmorph::test;
 using Eigen::Vector3d;
-
-/// The quads of a grid of the same cells, without triangles.
-QuadMesh quads_of(const GridSurface& grid, const Patch& patch) {
-  QuadMesh mesh;
-  mesh.points = patch.points;
-  const Index columns = grid.across + !grid.closed_across, rows = grid.along + !grid.closed_along;
-  for (Index j = 0; j < grid.along; ++j)
-    for (Index i = 0; i < grid.across; ++i) {
-      const Index right = (i + 1) % columns, up = (j + 1) % rows;
-      mesh.quads.push_back({j * columns + i, j * columns + right, up * columns + right, up * columns + i});
-    }
-  for (Index i = 0; i < mesh.points.size(); ++i) mesh.source.push_back(i);
-  return mesh;
-}
 
 struct Case {
   GridSurface grid;
@@ -118,8 +104,10 @@ TEST_CASE("in space: a quad over a sharp fillet is good by the mean normal") {
   }
   const space::Background surface(patch.points, patch.triangles);
   const space::Corners<4> quad{patch.points[0], patch.points[3], patch.points[7], patch.points[4]};
-  CHECK(space::scaled_jacobian_on<4>(surface, quad, 0) == doctest::Approx(1));
-  CHECK(space::scaled_jacobian_on<4>(surface, {quad[3], quad[2], quad[1], quad[0]}, 0) == doctest::Approx(-1));
+  const space::SurfaceNormals normals(surface);
+  const space::Corners<4> over{quad[3], quad[2], quad[1], quad[0]};
+  CHECK(space::scaled_jacobian(quad, normals.of(quad, 0)) == doctest::Approx(1));
+  CHECK(space::scaled_jacobian(over, normals.of(over, 0)) == doctest::Approx(-1));
 }
 
 TEST_CASE("in space: along a barrier elements are judged by their own side") {

@@ -12,6 +12,7 @@
 #include "gmsh/convert/periodic.hpp"
 #include "gmsh/convert/replace.hpp"
 #include "gmsh/convert/stop_watch.hpp"
+#include "gmsh/convert/whole_surface.hpp"
 #include "gmsh/model/coincident_nodes.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
@@ -69,10 +70,11 @@ void free_quads(SurfaceMesh& surface) {
 /// One run over the surfaces of a model.
 class Run {
  public:
-  Run(Task task, const Options& options, ModelReport& report)
+  Run(Task task, const Options& options, ModelReport& report, const std::map<int, Patch>& before)
       : task_(task),
         options_(options),
         report_(report),
+        before_(before),
         model_(read_classified_mesh(report.warnings)),
         fixed_edges_(model_.mesh, model_.use) {
     if (task != Task::measure) warn_of_loose_parts(model_, report.warnings);
@@ -101,6 +103,7 @@ class Run {
   const Task task_;
   const Options& options_;
   ModelReport& report_;
+  const std::map<int, Patch>& before_;  ///< what is measured against, by surface
   ClassifiedMesh model_;
   FixedEdges fixed_edges_;
   std::vector<PeriodicLink> links_;
@@ -320,6 +323,12 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
   for (const SurfacePart& part : surface.parts) quality.add(part.patch.points, part.patch.triangles, part.patch.quads);
   total_.add(quality);
   report.quality = quality.result();
+  if (const auto before = before_.find(report.tag); before != before_.end()) {
+    FidelityAccumulator fidelity;
+    fidelity.add_any(before->second, as_result(whole_surface(surface)));
+    fidelity_.add(fidelity);
+    report.fidelity = fidelity.result();
+  }
 }
 
 void Run::finish() {
@@ -375,11 +384,12 @@ std::vector<std::uint32_t> select_surfaces(const ModelMesh& mesh, const std::vec
   return selected;
 }
 
-ModelReport run(Task task, const std::vector<int>& surfaces, const Options& options) {
+ModelReport run(Task task, const std::vector<int>& surfaces, const Options& options,
+                const std::map<int, Patch>& before = {}) {
   ModelReport report;
   const QuietErrors quiet;
   StopWatch watch;
-  Run run(task, options, report);
+  Run run(task, options, report, before);
   report.read_seconds += watch.lap();
   run.visit(select_surfaces(run.mesh(), surfaces));
   run.finish();
@@ -408,6 +418,26 @@ ModelReport session::improve_quads(const Options& options, const std::vector<int
   return run(Task::improve, surfaces, options);
 }
 
-ModelReport session::measure_surfaces(const std::vector<int>& surfaces) { return run(Task::measure, surfaces, {}); }
+ModelReport session::measure_surfaces(const std::vector<int>& surfaces, const std::map<int, Patch>& before) {
+  return run(Task::measure, surfaces, {}, before);
+}
+
+std::map<int, Patch> session::read_surfaces(const std::vector<int>& surfaces) {
+  std::vector<std::string> warnings;
+  const QuietErrors quiet;
+  const ClassifiedMesh model = read_classified_mesh(warnings);
+  const FixedEdges fixed_edges(model.mesh, model.use);
+  std::vector<Index> local(model.mesh.tags.size(), kNone);
+  std::map<int, Patch> patches;
+  for (std::uint32_t entity : select_surfaces(model.mesh, surfaces)) {
+    try {
+      const SurfaceMesh surface = read_surface(model.mesh, model.use, fixed_edges, entity, local);
+      patches[model.mesh.entities[entity].tag] = whole_surface(surface);
+    } catch (const SurfaceError&) {
+      continue;  // nothing to measure by
+    }
+  }
+  return patches;
+}
 
 }  // namespace qmorph

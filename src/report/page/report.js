@@ -9,7 +9,7 @@ import {CanvasView} from "./canvas_view.js";
 import {ReportPainter, kMarks, groupColour} from "./report_painter.js";
 import {listenToPane} from "./gestures.js";
 import {drawHistogram} from "./histograms.js";
-import {stageTable, surfaceTable, optionList, chips} from "./tables.js";
+import {stageTable, surfaceTable, poorTable, optionList, chips} from "./tables.js";
 import {elementCard, summaryLine, countsOf} from "./element_card.js";
 import {toggleTheme, onTheme} from "./theme.js";
 
@@ -253,6 +253,8 @@ function fillPage() {
   byId("histograms").replaceChildren(...Object.keys(kFigures).map((key) => drawHistogram(key, colourings[key], meshes.before, meshes.after)));
   byId("stages").replaceChildren(stats.stages.length ? stageTable(stats.stages) : "No surface was converted.");
   byId("surface-table").replaceChildren(surfaceTable(stats.surfaces));
+  byId("poor-box").hidden = Object.keys(stats.poor_quads).length === 0;
+  byId("poor").replaceChildren(poorTable(stats.surfaces));
   byId("options").replaceChildren(optionList(stats.arguments));
   byId("command").textContent = facts.command;
   byId("version").textContent = `qmorph ${facts.version}`;

@@ -27,6 +27,15 @@ export function surfaceTable(surfaces) {
   }));
 }
 
+// Quads under 0.3, worst first, and why each of them is so.
+export function poorTable(surfaces) {
+  const most = 200;
+  const quads = surfaces.flatMap((s) => (s.poor_quads || []).map((quad) => ({surface: s.tag, ...quad})));
+  quads.sort((a, b) => a.scaled_jacobian - b.scaled_jacobian);
+  return table(["surface", "scaled Jacobian", "forced by", "at"], quads.slice(0, most).map((q) =>
+    [q.surface, short(q.scaled_jacobian), q.because, q.where.map((x) => short(x, 4)).join(", ")]));
+}
+
 // The options that were given, one a line, and the command as it was.
 export function optionList(args) {
   const rows = [];
@@ -46,6 +55,8 @@ export function chips(stats, {quads, triangles}) {
   if (sj) list.push([short(sj.min), "smallest scaled Jacobian"], [short(sj.mean), "mean scaled Jacobian"]);
   list.push([percent(total.irregular_share), "irregular nodes"]);
   if (stats.size_ratio?.median) list.push([short(stats.size_ratio.median, 2), "edge length over the input's"]);
+  if (stats.in_space) list.push([short(stats.in_space.distance.centre.mean, 3), "edges from the centres to the surface"],
+                                [`${short(stats.in_space.warpage_deg.p99, 1)}°`, "warpage of 99 %"]);
   list.push([`${stats.seconds.total.toFixed(2)} s`, "in all"]);
   return list.map(([value, what]) => element("li", {}, element("b", {}, value), " ", what));
 }

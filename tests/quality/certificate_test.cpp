@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "qmorph/certificate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
+
+namespace {
+
+using namespace qmorph;
+using Eigen::Vector3d;
+
+std::vector<PoorQuad> explain(const Patch& before, const QuadMesh& after) {
+  QualityAccumulator quality;
+  quality.add(before, after);
+  return explain_poor_quads(before, after, quality.scaled_jacobians());
+}
+
+/// A grid of quads in the plane, and the triangles that it came from. Cell (i, j) is quad 10 j + i.
+struct Grid {
+  Patch patch;
+  QuadMesh mesh;
+  Grid() {
+    for (int j = 0; j <= 10; ++j)
+      for (int i = 0; i <= 10; ++i) patch.points.emplace_back(i, j, 0);
+    for (Index j = 0; j < 10; ++j)
+      for (Index i = 0; i < 10; ++i) {
+        const Index a = 11 * j + i;
+        patch.triangles.push_back({a, a + 1, a + 12});
+        patch.triangles.push_back({a, a + 12, a + 11});
+        mesh.quads.push_back({a, a + 1, a + 12, a + 11});
+      }
+    mesh.points = patch.points;
+    for (Index i = 0; i < mesh.points.size(); ++i) mesh.source.push_back(i);
+  }
+};
+
+TEST_CASE("certificate: good quads need none") {
+  const Grid grid;
+  CHECK(explain(grid.patch, grid.mesh).empty());
+}
+
+TEST_CASE("certificate: a poor quad in the open is ours, with its place and figure") {
+  Grid grid;
+  grid.mesh.points[11 * 5 + 5] = Vector3d(5.93, 5.93, 0);  // nearly on the diagonal of a quad
+  const auto poor = explain(grid.patch, grid.mesh);
+  REQUIRE_FALSE(poor.empty());
+  for (const PoorQuad& quad : poor) {
+    CHECK(quad.reason == PoorBecause::nothing);
+    CHECK(quad.scaled_jacobian < 0.3);
+  }
+}
+
+TEST_CASE("certificate: a corner of the boundary that is too sharp, and only one that is") {
+  for (const double degrees : {10.0, 17.0, 19.0, 30.0}) {
+    const double half = degrees * std::numbers::pi / 360, x = std::cos(half), y = std::sin(half);
+    QuadMesh mesh;
+    mesh.points = {{0, 0, 0}, {x, -y, 0}, {1 / x, 0, 0}, {x, y, 0}};  // a kite with right angles beside the sharp one
+    mesh.quads = {{0, 1, 2, 3}};
+    mesh.source = {0, 1, 2, 3};
+    Patch patch;
+    patch.points = mesh.points;
+    patch.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const auto poor = explain(patch, mesh);
+    CHECK(poor.size() == (degrees < 17.4 ? 1 : 0));
+    for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::boundary_angle);
+  }
+}
+
+TEST_CASE("certificate: a narrow strip whose nodes do not face each other") {
+  // Two rows of nodes 0.1 apart, the upper ones half a step on: every quad leans.
+  QuadMesh mesh;
+  for (int i = 0; i <= 6; ++i) mesh.points.emplace_back(i, 0, 0);
+  for (int i = 0; i <= 6; ++i) mesh.points.emplace_back(i + 0.5, 0.1, 0);
+  for (Index i = 0; i < 6; ++i) mesh.quads.push_back({i, i + 1, i + 8, i + 7});
+  for (Index i = 0; i < mesh.points.size(); ++i) mesh.source.push_back(i);
+  Patch patch;
+  patch.points = mesh.points;
+  for (const auto& [a, b, c, d] : mesh.quads)
+    patch.triangles.push_back({a, b, c}), patch.triangles.push_back({a, c, d});
+  const auto poor = explain(patch, mesh);
+  CHECK(poor.size() == 6);
+  std::size_t narrow = 0;
+  for (const PoorQuad& quad : poor) narrow += quad.reason == PoorBecause::narrow;
+  CHECK(narrow >= 4);  // the ends are sharp corners
+  for (const PoorQuad& quad : poor) CHECK(quad.reason != PoorBecause::nothing);
+}
+
+TEST_CASE("certificate: lines that are kept count as boundaries do") {
+  Grid grid;
+  for (Index i = 0; i < 10; ++i) grid.patch.constraints.push_back({11 * 5 + i, 11 * 5 + i + 1});
+  for (int i = 0; i <= 10; ++i) {  // the row above comes near to the line, and half a step aside
+    grid.patch.points[11 * 6 + i] = Vector3d(i + 0.4, 5.1, 0);
+    grid.mesh.points[11 * 6 + i] = grid.patch.points[11 * 6 + i];
+  }
+  for (Index i = 0; i < 10; ++i) grid.patch.constraints.push_back({11 * 6 + i, 11 * 6 + i + 1});
+  const auto poor = explain(grid.patch, grid.mesh);
+  CHECK(poor.size() == 10);
+  for (const PoorQuad& quad : poor) CHECK(quad.reason != PoorBecause::nothing);
+  grid.patch.constraints.clear();
+  bool any_ours = false;
+  for (const PoorQuad& quad : explain(grid.patch, grid.mesh))
+    any_ours = any_ours || quad.reason == PoorBecause::nothing;
+  CHECK(any_ours);
+}
+
+TEST_CASE("certificate: beside the triangle of an odd region") {
+  Grid grid;
+  grid.mesh.quads[44] = {kNone, kNone, kNone, kNone};
+  std::erase_if(grid.mesh.quads, [](const auto& q) { return q[0] == kNone; });
+  const Index a = 11 * 4 + 4;
+  grid.mesh.triangles = {{a, a + 1, a + 12}, {a, a + 12, a + 11}};
+  grid.mesh.points[a] = Vector3d(4.93, 4.93, 0);
+  const auto poor = explain(grid.patch, grid.mesh);
+  REQUIRE_FALSE(poor.empty());
+  for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::odd_region);
+}
+
+TEST_CASE("certificate: quads of the input are the input's") {
+  Grid grid;
+  grid.mesh.points[11 * 5 + 5] = grid.patch.points[11 * 5 + 5] = Vector3d(5.93, 5.93, 0);
+  grid.patch.quads = grid.mesh.quads;
+  grid.patch.triangles.clear();
+  const auto poor = explain(grid.patch, grid.mesh);
+  REQUIRE_FALSE(poor.empty());
+  for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::kept);
+}
+
+TEST_CASE("certificate: a surface that is folded within the quad") {
+  // A sheet of five rows that turns back over itself and on again; a quad in the middle row lies over the folds.
+  Patch patch;
+  QuadMesh mesh;
+  const std::vector<Vector3d> profile{{-2, 0, 0},    {-1, 0, 0},    {0, 0, 0},     {1, 0, 0},    {0.3, 0, 0.1},
+                                      {1.3, 0, 0.2}, {2.3, 0, 0.2}, {3.3, 0, 0.2}, {4.3, 0, 0.2}};
+  const Index columns = Index(profile.size());
+  for (int row = 0; row <= 5; ++row)
+    for (const Vector3d& p : profile) patch.points.emplace_back(p.x(), row, p.z());
+  for (Index row = 0; row < 5; ++row)
+    for (Index i = 0; i + 1 < columns; ++i) {
+      const Index a = row * columns + i;
+      patch.triangles.push_back({a, a + 1, a + columns + 1});
+      patch.triangles.push_back({a, a + columns + 1, a + columns});
+      mesh.quads.push_back({a, a + 1, a + columns + 1, a + columns});
+    }
+  mesh.points = patch.points;
+  for (Index i = 0; i < mesh.points.size(); ++i) mesh.source.push_back(i);
+  std::vector<double> figures(mesh.quads.size(), 1);
+  const Index over_folds = 2 * (columns - 1) + 3;
+  figures[over_folds] = 0.1;  // as if it were poor
+  const auto poor = explain_poor_quads(patch, mesh, figures);
+  REQUIRE(poor.size() == 1);
+  CHECK(poor[0].quad == over_folds);
+  CHECK(poor[0].reason == PoorBecause::input_geometry);
+}
+
+TEST_CASE("certificate: every reason has a name of its own") {
+  for (std::size_t i = 0; i < kPoorReasons; ++i)
+    for (std::size_t j = 0; j < i; ++j) CHECK(name_of(PoorBecause(i)) != name_of(PoorBecause(j)));
+}
+
+}  // namespace
