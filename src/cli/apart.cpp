@@ -228,7 +228,9 @@ int run_apart(const std::vector<std::string>& arguments) {
     return bad_input;
   }
   if (!slate.has_ended || slate.shows_foreign_words) std::cerr << words;
-  return WEXITSTATUS(status);
+  if (slate.has_ended) return WEXITSTATUS(status);
+  std::cerr << fmt::format("qmorph: {} (it ended the program with status {})\n", slate.trouble(), WEXITSTATUS(status));
+  return slate.status();
 }
 
 }  // namespace qmorph::cli

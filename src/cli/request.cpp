@@ -55,6 +55,7 @@ constexpr std::array kRows = {
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
     Row{"report", "--report FILE", 1, "write a page that shows the mesh before and after, and all figures (HTML)"},
     Row{"film", "--film FILE", 1, "write a page that plays how the front advanced, step by step (HTML)"},
+    Row{"depfile", "--depfile FILE", 1, "write a rule for make: every file that OUT depends on"},
     Row{"svg", "--svg FILE", 1, "write a picture of the mesh"},
     Row{"pdf", "--pdf FILE", 1, "the same as PDF"},
     Row{"tikz", "--tikz FILE", 1, "the same for LaTeX (TikZ)"},
@@ -143,6 +144,7 @@ void note_gmsh_option(const GmshOptionRow& row, const std::vector<std::string>& 
   if (says_how_to_mesh(row.name)) request.meshing_words.push_back(fmt::format("-{}", row.name));
   if (row.name == "algo") request.algorithm_chosen = true;
   if (row.name == "bgm") request.background = values[0];
+  if (row.name == "option") request.option_files.push_back(values[0]);
   if (row.name == "ignore_periodicity") request.ignore_periodicity = true;
   if (row.name == "order" || row.name == "degree") request.order_chosen = true;
   if (row.name != "setnumber" && row.name != "setstring") return;
@@ -246,7 +248,7 @@ void refuse_files_of_check(const Request& request) {
                           std::pair("--stats", !request.stats.empty()), std::pair("--report", !request.report.empty()),
                           std::pair("--film", !request.film.empty()),   std::pair("--svg", !request.svg.empty()),
                           std::pair("--pdf", !request.pdf.empty()),     std::pair("--tikz", !request.tikz.empty()),
-                          std::pair("--views", request.views)};
+                          std::pair("--views", request.views),      std::pair("--depfile", !request.depfile.empty())};
   for (const auto& [option, given] : all)
     if (given) throw UsageError(fmt::format("--check writes nothing; leave out {}", option));
 }
@@ -298,6 +300,7 @@ Request parse(const std::vector<std::string>& arguments) {
   app.add_option("--stats", request.stats);
   app.add_option("--report", request.report);
   app.add_option("--film", request.film);
+  app.add_option("--depfile", request.depfile);
   app.add_option("--svg", request.svg);
   app.add_option("--pdf", request.pdf);
   app.add_option("--tikz", request.tikz);
@@ -337,6 +340,8 @@ Request parse(const std::vector<std::string>& arguments) {
     throw UsageError("--keep-curves means nothing without --all-quad");
   if ((*stage || *colour) && !request.wants_picture())
     throw UsageError("--stage and --colour are for pictures: --svg, --pdf or --tikz");
+  if (!request.depfile.empty() && (request.output == "-" || (request.output.empty() && request.input == "-")))
+    throw UsageError("--depfile: a rule for make needs a target; give -o a name");
   if (binary) request.binary = true;
   for (const std::string& tag : surfaces) request.surfaces.push_back(surface_tag(tag));
   return request;

@@ -19,6 +19,7 @@ struct Thresholds {
 /// One call of the command.
 struct Request {
   std::string input, output, format, stats, report, film;
+  std::string depfile;                         ///< for a rule of make
   std::string svg, pdf, tikz;                  ///< files for pictures
   std::string stage = "final", colour = "sj";  ///< of the pictures
   std::vector<std::string> merged;             ///< further files, merged with the input
@@ -51,6 +52,7 @@ struct Request {
   std::optional<bool> binary;               ///< of -bin, or of -setnumber Mesh.Binary
   std::vector<std::string> meshing_words;   ///< options that matter only where Gmsh meshes, as they were given
   std::vector<std::string> option_names;    ///< of Gmsh ("Mesh.Smoothing"), set by -setnumber and -setstring
+  std::vector<std::string> option_files;    ///< of -option
   std::vector<std::string> gmsh_arguments;  ///< for Gmsh, in their order: the last one of a kind wins
 
   bool wants_picture() const { return !svg.empty() || !pdf.empty() || !tikz.empty(); }

@@ -30,6 +30,7 @@
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/open.hpp"
 #include "gmsh/read/readable.hpp"
+#include "gmsh/read/sources.hpp"
 #include "gmsh/session/scratch_file.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/window/window.hpp"
@@ -175,6 +176,17 @@ void prepare_for_readers(const Request& request, const adapter::OutputPlan& plan
   if (!reader) adapter::prepare_for_format(plan);
 }
 
+/// What the result depends on: what Gmsh has read, and what it was told to read.
+std::string make_rule(const Request& request, const adapter::OpenedModel& opened, const adapter::OutputPlan& plan) {
+  std::vector<std::string> files{request.input};
+  files.insert(files.end(), request.merged.begin(), request.merged.end());
+  if (!request.background.empty()) files.push_back(request.background);
+  files.insert(files.end(), request.option_files.begin(), request.option_files.end());
+  files.push_back(request.input + ".opt");  // Gmsh takes it by itself
+  files.insert(files.end(), opened.sources.begin(), opened.sources.end());
+  return adapter::make_rule(plan.path, adapter::with_named_files(files));
+}
+
 /// One call of the command, as it goes through the functions below.
 struct Call {
   const Request& request;
@@ -308,6 +320,7 @@ int convert_file(const Call& call) {
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start);
   std::vector<SideFile> others = make_side_files(request, before, model, recorder, facts);
+  if (!request.depfile.empty()) others.push_back({request.depfile, make_rule(request, opened, plan)});
   if (request.views) {
     std::vector<SideFile> views = write_views(request, opened, plan.path, file);
     if (request.to_stdout && !views.empty())

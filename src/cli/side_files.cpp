@@ -54,7 +54,8 @@ std::vector<std::pair<std::string, std::string>> side_files(const Request& reque
   std::vector<std::pair<std::string, std::string>> files;
   const std::array all = {std::pair("--stats", &request.stats), std::pair("--report", &request.report),
                           std::pair("--film", &request.film),   std::pair("--svg", &request.svg),
-                          std::pair("--pdf", &request.pdf),     std::pair("--tikz", &request.tikz)};
+                          std::pair("--pdf", &request.pdf),     std::pair("--tikz", &request.tikz),
+                          std::pair("--depfile", &request.depfile)};
   for (const auto& [option, path] : all)
     if (!path->empty()) files.emplace_back(option, *path);
   return files;

@@ -20,8 +20,9 @@ std::string elements(std::size_t triangles, std::size_t quads) {
   return counted(quads, "quad") + " and " + counted(triangles, "triangle");
 }
 
-std::string figures(const Quality& quality) {
-  if (quality.quads == 0) return "no quad";
+/// `quads`: how many there are. Those of surfaces that were left as they were are not measured.
+std::string figures(const Quality& quality, std::size_t quads) {
+  if (quality.quads == 0) return quads ? "not measured" : "no quad";
   return fmt::format("scaled Jacobian min {:.3f} mean {:.3f}; irregular {:.1f} %", quality.scaled_jacobian_min,
                      quality.scaled_jacobian_mean, 100 * quality.irregular_share());
 }
@@ -55,12 +56,12 @@ std::string surface_line(const SurfaceReport& surface) {
       return line + fmt::format(": {} left as {}: {}", before,
                                 surface.triangles_in + surface.quads_in == 1 ? "it was" : "they were", surface.reason);
     case SurfaceOutcome::already_quads:
-      return line + fmt::format(": {} already; {}", before, figures(surface.quality));
+      return line + fmt::format(": {} already; {}", before, figures(surface.quality, surface.quads_out));
     case SurfaceOutcome::converted:
       break;
   }
   return line + fmt::format(": {} -> {}; {}", before, elements(surface.triangles_out, surface.quads_out),
-                            figures(surface.quality));
+                            figures(surface.quality, surface.quads_out));
 }
 
 std::string check_line(const ModelReport& model) {
@@ -70,7 +71,7 @@ std::string check_line(const ModelReport& model) {
     quads += surface.quads_in;
   }
   return fmt::format("{} on {}; {}{}", elements(triangles, quads), counted(model.surfaces.size(), "surface"),
-                     figures(model.total), distance(model.fidelity));
+                     figures(model.total, quads), distance(model.fidelity));
 }
 
 std::string total_line(const ModelReport& model, const std::string& output, double seconds) {
@@ -82,7 +83,7 @@ std::string total_line(const ModelReport& model, const std::string& output, doub
     quads_out += surface.quads_out;
   }
   return fmt::format("total: {} -> {}; {}{}{}; {:.2f} s; {}", elements(triangles_in, quads_in),
-                     elements(triangles_out, quads_out), figures(model.total), distance(model.fidelity), poor(model),
+                     elements(triangles_out, quads_out), figures(model.total, quads_out), distance(model.fidelity), poor(model),
                      seconds, output);
 }
 

@@ -44,3 +44,40 @@ TEST_CASE("messages: a concave quad of the input names --cleanup-only") {
   CHECK(result.status == 3);
   CHECK(mentions(result.err, "is inverted or not convex at (0.5, 0.5, 0); --cleanup-only"));
 }
+
+TEST_CASE("messages: quads that are left as they were are quads in the sum") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", kConcave);
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(mentions(result.err, "total: 1 quad -> 1 quad; not measured; "));
+  CHECK(!mentions(result.err, "no quad"));
+}
+
+TEST_CASE("messages: places on a map, metres from their origin far away, are told apart") {
+  const TemporaryDirectory directory;
+  // The middle one of three quads in a row is concave, at a node a quarter of a metre from the next one.
+  write_file(directory / "in.msh", msh22({{500000.25, 4649776.5, 0},
+                                          {500000.5, 4649776.5, 0},
+                                          {500000.3125, 4649776.5625, 0},
+                                          {500000.25, 4649776.75, 0}},
+                                         {"3 2 0 1 1 2 3 4"}));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.status == 3);
+  CHECK(mentions(result.err, "at (500000.3125, 4649776.5625, 0)"));
+}
+
+TEST_CASE("messages: files of a format in which Gmsh finds nothing are no meshes without surfaces") {
+  const TemporaryDirectory directory;
+  for (const char* name : {"in.unv", "in.brep", "in.mesh", "in.bdf", "in.iges", "in.stl"}) {
+    CAPTURE(std::string(name));
+    write_file(directory / name, "hello world\n");
+    const Result result = run_qmorph({directory / name, "-o", directory / "out.msh"});
+    CHECK(result.status == 2);
+    CHECK(mentions(result.err, "is it of the format that its name says?"));
+    CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+  }
+  write_file(directory / "in.xyz", std::string("\1\0\2", 3));
+  CHECK(mentions(run_qmorph({directory / "in.xyz", "-o", directory / "out.msh"}).err, "is binary"));
+  write_file(directory / "in.geo", std::string("Point(1)\0 = {0, 0, 0};", 20));
+  CHECK(run_qmorph({directory / "in.geo"}).status == 2);
+}

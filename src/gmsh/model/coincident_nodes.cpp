@@ -83,7 +83,7 @@ CoincidentNodes find_coincident_nodes(const ModelMesh& mesh, const NodeUse& use)
     box.extend(mesh.points[row]);
   }
   CoincidentNodes found;
-  if (rows.empty()) return found;
+  if (rows.empty() || !std::isfinite(box.diagonal().norm())) return found;
   Places places(rows.size(), box);
   for (const Index row : rows) {
     if (places.add(mesh.points[row])) continue;

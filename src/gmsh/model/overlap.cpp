@@ -185,6 +185,7 @@ std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& out
 
 std::optional<Overlap> find_overlap(const ModelMesh& mesh) {
   const double tolerance = kPlaneTolerance * size_of(mesh);
+  if (!std::isfinite(tolerance)) return std::nullopt;
   std::vector<Index> neighbours(mesh.tags.size(), 0);
   for (const std::vector<Sheet>& group : group_by_plane(find_sheets(mesh, tolerance), tolerance)) {
     const auto edge = find_double_cover(find_outline(mesh, group, neighbours));

@@ -16,6 +16,7 @@
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/msh2_text.hpp"
 #include "gmsh/read/readable.hpp"
+#include "gmsh/read/sources.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/scratch_file.hpp"
 #include "gmsh/session/session.hpp"
@@ -182,6 +183,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   for (const GroupName& group : contents.odd_names) set_group_name(group);
   if (opened.msh.version == 0) check_not_empty(path);
   opened.warnings = log.warnings;
+  opened.sources = files_read(log);
   opened.open_seconds = seconds_since(start);
   if (options.when_read) options.when_read();
 

@@ -26,6 +26,7 @@ struct OpenedModel {
   MeshData views;                                ///< data on the mesh of the file
   std::optional<std::vector<ViewStep>> carried;  ///< `views` on the quads, if that has been done already
   std::vector<std::string> warnings;
+  std::vector<std::string> sources;  ///< files that Gmsh has said it reads
   double open_seconds = 0, mesh_seconds = 0;
 };
 
