@@ -184,7 +184,6 @@ bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::size_t crossing
 
 /// How much of the surroundings gets a layer of quads around it, to give fixed nodes room, before a triangle is passed.
 enum class Room { none, chain, ring, two_rings };
-constexpr Room kRooms[] = {Room::none, Room::chain, Room::ring, Room::two_rings};
 
 /// A triangle that is farther from its partner than this walks.
 constexpr std::size_t kLongestChain = 40;

@@ -134,18 +134,19 @@ TEST_CASE("front: at the tip of a slit the angle is the whole circle, at its mou
 
 TEST_CASE("front: a corner is an end below 3 pi / 4") {
   // A fan at node 1: the angle between 1-2 and 1-0 is given.
-  for (const auto& [angle, corner] : {std::pair(0.74 * kPi, true),
-                                      {0.76 * kPi, false},
-                                      {0.1 * kPi, true},
-                                      {1.0 * kPi, false},
-                                      {1.2 * kPi, false},
-                                      {1.9 * kPi, false}}) {
+  const struct {
+    double angle;
+    bool corner;
+  } kCases[] = {{0.74 * kPi, true}, {0.76 * kPi, false}, {0.1 * kPi, true},
+                {1.0 * kPi, false}, {1.2 * kPi, false},  {1.9 * kPi, false}};
+  for (const auto& the_case : kCases) {
+    const double angle = the_case.angle;
     CAPTURE(angle);
     const Vec2 middle = rotated(Vec2(1, 0), angle / 2);
     const Scene s(drawn({rotated(Vec2(1, 0), angle), {0, 0}, {1, 0}, middle}, {{1, 2, 3}, {1, 3, 0}}));
     CHECK(s.front.angle_left(s.at(1, 2)) == doctest::Approx(angle));
-    CHECK(s.front.state(s.at(1, 2)).left == corner);
-    CHECK(s.front.state(s.at(0, 1)).right == corner);
+    CHECK(s.front.state(s.at(1, 2)).left == the_case.corner);
+    CHECK(s.front.state(s.at(0, 1)).right == the_case.corner);
   }
   const Scene square(drawn({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}}));
   CHECK(square.front.state(square.at(0, 1)).corners() == 2);

@@ -12,9 +12,10 @@ using namespace qmorph::test;
 }  // namespace
 
 TEST_CASE("morph: a rectangle of n x m cells becomes a grid without irregular nodes") {
-  for (const auto& [columns, rows] : std::vector<std::pair<Index, Index>>{
+  for (const auto& size : std::vector<std::pair<Index, Index>>{
            {1, 1}, {2, 1}, {2, 2}, {3, 3}, {4, 2}, {4, 4}, {6, 4}, {8, 8}, {12, 6}, {20, 10}})
     for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling}) {
+      const Index columns = size.first, rows = size.second;
       CAPTURE(columns);
       CAPTURE(rows);
       Mesh mesh = grid(columns, rows, diagonals);

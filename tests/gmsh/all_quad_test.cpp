@@ -100,7 +100,9 @@ void check_rest(const TemporaryDirectory& directory, const std::set<int>& split,
 }  // namespace
 
 TEST_CASE("--all-quad: two odd neighbours share one new node, and nothing else changes") {
-  for (const auto& [version, binary] : {std::pair{4.1, false}, {4.1, true}, {2.2, false}, {2.2, true}}) {
+  for (const auto& kind : {std::pair{4.1, false}, {4.1, true}, {2.2, false}, {2.2, true}}) {
+    const double version = kind.first;
+    const bool binary = kind.second;
     CAPTURE(version);
     CAPTURE(binary);
     const TemporaryDirectory directory;

@@ -93,8 +93,9 @@ TEST_CASE("foreign: MSH 2.2 with every kind of tags") {
 }
 
 TEST_CASE("foreign: MSH 4.1 without entities, all nodes in one block") {
-  for (const auto& [dim, tag] : {std::pair{2, 3}, std::pair{2, 99}, std::pair{3, 1}, std::pair{0, 1}, std::pair{1, 7}})
+  for (const auto& owner : {std::pair{2, 3}, std::pair{2, 99}, std::pair{3, 1}, std::pair{0, 1}, std::pair{1, 7}})
     for (const bool lines : {false, true}) {
+      const int dim = owner.first, tag = owner.second;
       CAPTURE(dim);
       CAPTURE(tag);
       CAPTURE(lines);

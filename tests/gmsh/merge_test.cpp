@@ -206,9 +206,9 @@ TEST_CASE("merge: a geometry takes its own mesh, and a mesh takes a script") {
     ::gmsh::merge(directory / "a.geo");
     ::gmsh::model::mesh::generate(2);
   });
-  for (const auto& [first, second] : {std::pair("a.geo", "a.msh"), std::pair("a.msh", "script.geo")}) {
-    CAPTURE(first);
-    const Result result = run_qmorph({directory / first, directory / second, "-o", directory / "out.msh"});
+  for (const auto& files : {std::pair("a.geo", "a.msh"), std::pair("a.msh", "script.geo")}) {
+    CAPTURE(files.first);
+    const Result result = run_qmorph({directory / files.first, directory / files.second, "-o", directory / "out.msh"});
     CAPTURE(result.err);
     CHECK(result.status == 0);
     for (int surface : {1, 2}) CHECK(element_counts(read_snapshot(directory / "out.msh"), surface).second > 0);

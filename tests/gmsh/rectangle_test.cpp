@@ -42,7 +42,8 @@ void check_grid(const json& total, int n, int m) {
 }  // namespace
 
 TEST_CASE("a rectangle becomes a grid, from its geometry and from the triangles alone") {
-  for (const auto& [n, m] : {std::pair{8, 4}, {20, 10}, {17, 6}, {40, 40}}) {
+  for (const auto& size : {std::pair{8, 4}, {20, 10}, {17, 6}, {40, 40}}) {
+    const int n = size.first, m = size.second;
     CAPTURE(n);
     CAPTURE(m);
     const TemporaryDirectory directory;

@@ -52,8 +52,9 @@ struct Case {
 };
 
 bool is_well_formed(Case& c) {
-  const auto& [points, source, triangles, quads] = c.out;
-  if (source.size() != points.size()) c.bad.add("malformed", source.size(), " sources, ", points.size(), " points");
+  const std::vector<Vector3d>& points = c.out.points;
+  if (c.out.source.size() != points.size())
+    c.bad.add("malformed", c.out.source.size(), " sources, ", points.size(), " points");
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite()) c.bad.add("malformed", "point ", i, " is not finite");
   const auto check = [&](const auto& elements) {
@@ -64,8 +65,8 @@ bool is_well_formed(Case& c) {
           if (nodes[i] == nodes[j]) c.bad.add("malformed", "an element has node ", nodes[i], " twice");
       }
   };
-  check(triangles);
-  check(quads);
+  check(c.out.triangles);
+  check(c.out.quads);
   return c.bad.empty();
 }
 
