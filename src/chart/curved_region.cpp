@@ -90,7 +90,7 @@ SurfaceMesh CurvedRegion::start() const {
 
 std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle, std::size_t first_half) {
   std::vector<CurvedRegion> regions;
-  for (Region& region : cut_into_regions(patch, shadow(patch))) {
+  for (Region& region : cut_into_regions(patch, shadow(patch), EdgesOfMany::part)) {
     regions.emplace_back(patch, std::move(region), crease_angle);
     regions.back().first_half = first_half;
   }

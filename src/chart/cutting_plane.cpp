@@ -18,6 +18,8 @@ constexpr double kShifts[] = {0, -0.08, 0.08, -0.16, 0.16};  ///< of the share
 /// place for quads.
 constexpr double kEndCost = 0.02, kFlatCost = 0.5;
 constexpr double kSquare = 0.9;  ///< a sine from which on an end is no wedge
+/// A plane that has less than this of the wanted share behind it does not cut.
+constexpr double kLeastShare = 0.3;
 /// Costs are estimated from so many faces.
 constexpr std::size_t kSamples = 4096;
 
@@ -74,6 +76,8 @@ class Chooser {
       for (double shift : kShifts) {
         const double rank = std::clamp(share_ + shift, 0.0, 1.0) * double(offsets.size() - 1);
         const Plane3 plane{normal, offsets[std::size_t(rank)]};
+        const auto behind = std::lower_bound(offsets.begin(), offsets.end(), plane.offset) - offsets.begin();
+        if (double(behind) < kLeastShare * share_ * double(offsets.size())) continue;  // most lie in the plane
         const double cost = cost_of(plane, offsets.back() - offsets.front());
         if (cost < least) best = plane, least = cost;
       }

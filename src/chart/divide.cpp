@@ -158,7 +158,8 @@ class Dividing {
       merged = false;
       auto pieces = components(faces, opposite_, division_.is_cut);
       std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-      if (pieces.size() < 2 || double(pieces[0].size()) >= std::max(kCrumb * double(faces.size()), kFew / 3)) return;
+      const double all = double(faces.size()), crumb = std::max(kCrumb * all, std::min(kFew / 3, all / 5));
+      if (pieces.size() <= 2 || double(pieces[0].size()) >= crumb) return;
       const LocalNumbers local(faces, mesh_.faces.size());
       std::vector<Index> of(faces.size(), kNone);
       for (Index p = 0; p < pieces.size(); ++p)

@@ -1,6 +1,7 @@
 #include "engine/regions.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "geometry/z_curve.hpp"
 #include "qmorph/error.hpp"
@@ -13,11 +14,19 @@ namespace {
 /// are 3 k, 3 k + 1, 3 k + 2.
 class Sides {
  public:
-  Sides(const Patch& patch, const std::vector<Index>& order) : opposite_(3 * order.size(), kNone) {
+  Sides(const Patch& patch, const std::vector<Index>& order, EdgesOfMany many)
+      : opposite_(3 * order.size(), kNone) {
     take_nodes(patch, order);
     first_.assign(row_.size(), kNone);
     edges_.reserve(node_.size() / 2 + node_.size() / 16);
-    for (Index c = 0; c < node_.size(); ++c) add(c, patch);
+    const std::vector<Index> torn = many == EdgesOfMany::part ? sides_of_many(patch) : std::vector<Index>();
+    std::size_t next_torn = 0;
+    for (Index c = 0; c < node_.size(); ++c) {
+      if (next_torn < torn.size() && torn[next_torn] == c)
+        ++next_torn;
+      else
+        add(c, patch);
+    }
     for (const auto& [a, b] : patch.constraints) cut(number_[a], number_[b]);
   }
 
@@ -55,6 +64,35 @@ class Sides {
       if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v);
       v = number_[v];
     }
+  }
+
+  /// Sides on edges that have three triangles or more, or that are constraints and not passed in both directions; ascending.
+  std::vector<Index> sides_of_many(const Patch& patch) const {
+    struct Side {
+      Index low, high, side;
+      bool operator<(const Side& other) const {
+        return std::tie(low, high, side) < std::tie(other.low, other.high, other.side);
+      }
+    };
+    std::vector<Side> sides;
+    sides.reserve(node_.size());
+    for (Index c = 0; c < node_.size(); ++c)
+      sides.push_back({std::min(node_[c], node_[next(c)]), std::max(node_[c], node_[next(c)]), c});
+    std::sort(sides.begin(), sides.end());
+    std::vector<std::pair<Index, Index>> lines;
+    for (const auto& [a, b] : patch.constraints)
+      if (number_[a] != kNone && number_[b] != kNone) lines.push_back(std::minmax(number_[a], number_[b]));
+    std::sort(lines.begin(), lines.end());
+    std::vector<Index> many;
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+      while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
+      const bool alike = last - first == 2 && node_[sides[first].side] == node_[sides[first + 1].side];
+      const bool on_line = std::binary_search(lines.begin(), lines.end(), std::pair(sides[first].low, sides[first].high));
+      if (last - first > 2 || (alike && on_line))
+        for (std::size_t k = first; k < last; ++k) many.push_back(sides[k].side);
+    }
+    std::sort(many.begin(), many.end());
+    return many;
   }
 
   /// The side between a and b, in either direction, that came first. O(valence).
@@ -148,9 +186,9 @@ std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& pl
 
 }  // namespace
 
-std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points) {
+std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points, EdgesOfMany many) {
   const std::vector<Index> order = spatial_order(patch, plane_points);
-  Sides sides(patch, order);
+  Sides sides(patch, order, many);
   sides.separate_fans();
   std::vector<std::size_t> sizes;
   const std::vector<Index> region_of = number_regions(sides, Index(order.size()), sizes);

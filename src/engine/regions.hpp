@@ -45,8 +45,12 @@ struct Region {
   std::size_t boundary_sides = 0;
 };
 
+/// What is done where more than two triangles meet at an edge: in a plane they overlap, in space they are sheets, and parted there.
+enum class EdgesOfMany { refuse, part };
+
 /// The regions' triangles follow one another along a Z-curve.
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
-std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points);
+std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points,
+                                     EdgesOfMany many = EdgesOfMany::refuse);
 
 }  // namespace qmorph

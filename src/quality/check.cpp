@@ -121,12 +121,22 @@ struct ResultEdges {
   Finding defect;
 };
 
-ResultEdges collect_edges(const QuadMesh& mesh) {
+Edge moved_edge(const std::vector<Index>& rows, Index a, Index b) {
+  return {std::min(rows[a], rows[b]), std::max(rows[a], rows[b])};
+}
+
+/// More than two elements, or two on one side.
+bool is_of_many(std::span<const Side> edge) {
+  return edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward);
+}
+
+/// `of_many`: edges where several sheets met before.
+ResultEdges collect_edges(const QuadMesh& mesh, const std::vector<Edge>& of_many) {
   ResultEdges edges;
   for_each_edge(sorted_sides(mesh.points.size(), mesh.triangles, mesh.quads), [&](std::span<const Side> edge) {
     const Edge ends{edge[0].low, edge[0].high};
     (edge.size() == 1 ? edges.outer : edges.inner).push_back(ends);
-    if (edge.size() > 2 || (edge.size() == 2 && edge[0].forward == edge[1].forward))
+    if (is_of_many(edge) && !std::binary_search(of_many.begin(), of_many.end(), ends))
       edges.defect = at(mesh.points[ends.first], "elements overlap");
   });
   return edges;
@@ -136,18 +146,17 @@ bool has(const std::vector<Edge>& edges, const Edge& edge) {
   return std::binary_search(edges.begin(), edges.end(), edge);
 }
 
-Edge moved_edge(const std::vector<Index>& rows, Index a, Index b) {
-  return {std::min(rows[a], rows[b]), std::max(rows[a], rows[b])};
-}
-
 /// Boundary and constraint edges of the input, and the nodes that they hold in place.
 Finding find_lost_edge(const Patch& patch, const QuadMesh& mesh, const std::vector<Index>& rows) {
-  const ResultEdges edges = collect_edges(mesh);
-  if (edges.defect) return edges.defect;
-  std::vector<Edge> outer;
+  std::vector<Edge> outer, of_many;
   for_each_edge(sorted_sides(patch.points.size(), patch.triangles, patch.quads), [&](std::span<const Side> edge) {
     if (edge.size() == 1) outer.emplace_back(edge[0].low, edge[0].high);
+    if (is_of_many(edge) && rows[edge[0].low] != kNone && rows[edge[0].high] != kNone)
+      of_many.push_back(moved_edge(rows, edge[0].low, edge[0].high));
   });
+  std::sort(of_many.begin(), of_many.end());
+  const ResultEdges edges = collect_edges(mesh, of_many);
+  if (edges.defect) return edges.defect;
   const auto check = [&](Index a, Index b, bool is_outer) -> Finding {
     for (Index node : {a, b})
       if (Finding moved = find_moved_node(patch, mesh, rows, node)) return moved;

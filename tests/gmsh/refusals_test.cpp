@@ -45,24 +45,13 @@ void check_left(const Mixed& mixed, const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("refused: three triangles at one edge") {
-  Mixed mixed;
-  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0);
-  mixed.bad(a, b, mixed.add(0, 1, 0));
-  mixed.bad(a, b, mixed.add(0, -1, 0));
-  mixed.bad(a, b, mixed.add(0, 0, 1));
-  check_left(mixed,
-             "surface 2: 3 triangles left as they were: it is not a manifold: more than two elements share an "
-             "edge, from node 26 at (10, 0, 0)");
-}
-
 TEST_CASE("refused: the same triangle twice, with others around it") {
   Mixed mixed;
   const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(0, 1, 0), d = mixed.add(1, 1, 0);
   mixed.bad(a, b, c);
   mixed.bad(a, b, c);
   mixed.bad(b, d, c);
-  check_left(mixed, "it is not a manifold");
+  check_left(mixed, "it has an element twice");
 }
 
 TEST_CASE("refused: a Moebius strip") {
@@ -112,14 +101,6 @@ TEST_CASE("refused: a node at no place") {
   CAPTURE(result.err);
   CHECK(result.status == 3);
   CHECK(mentions(result.err, "surface 2: 1 triangle left as it was: node 28 at (10, nan, 0) is nowhere"));
-}
-
-TEST_CASE("refused: a surface that is not planar") {
-  Mixed mixed;
-  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(0, 1, 0.5), d = mixed.add(1, 1, 0);
-  mixed.bad(a, b, d);
-  mixed.bad(a, d, c);
-  check_left(mixed, "planar");
 }
 
 TEST_CASE("refused: a surface that bounds tetrahedra") {

@@ -62,11 +62,8 @@ void walk_part(Index seed, const Neighbours& neighbours, Orientation& result) {
 Orientation orient(std::size_t elements, const std::vector<Side>& sides) {
   Orientation result;
   for_each_edge(sides, [&](std::span<const Side> edge) {
-    if (edge.size() <= 2 || result.defect) return;
-    result.defect = "it is not a manifold: more than two elements share an edge";
-    result.where = edge[0];
+    if (edge.size() > 2) result.of_many.push_back({edge[0].low, edge[0].high});
   });
-  if (result.defect) return result;
 
   result.part.assign(elements, kNone);
   result.flip.assign(elements, false);

@@ -15,8 +15,9 @@ struct Orientation {
   std::vector<bool> flip;   ///< elements to turn, always the smaller share of their part
   Index parts = 0;
   std::size_t flipped = 0;
-  /// Set if something is wrong, and then nothing else counts: an edge with more than two elements, or one where no
-  /// turning helps (a Moebius strip).
+  /// Edges where more than two elements meet, lower node first: the sheets that meet there do not hang together by them.
+  std::vector<std::array<Index, 2>> of_many;
+  /// Set if something is wrong, and then nothing else counts: an edge where no turning helps (a Moebius strip).
   const char* defect = nullptr;
   Side where;
 };

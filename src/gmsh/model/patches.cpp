@@ -117,6 +117,18 @@ class LocalNumbers {
   std::vector<Index> rows_;
 };
 
+template <std::size_t N>
+void refuse_twins(const ModelMesh& mesh, const std::vector<std::array<Index, N>>& elements) {
+  std::vector<std::array<Index, N>> sorted = elements;
+  for (auto& nodes : sorted) std::sort(nodes.begin(), nodes.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twin == sorted.end()) return;
+  const Index row = (*twin)[0];
+  throw SurfaceError(fmt::format("it has an element twice, at {}; remove one of the two", describe_node(mesh, row)),
+                     at_node(mesh, row, ErrorKind::not_manifold));
+}
+
 Orientation orient_surface(const ModelMesh& mesh, const Elements& elements, std::vector<Index>& local) {
   LocalNumbers number(local);
   std::vector<std::array<Index, 3>> triangles;
@@ -132,6 +144,12 @@ Orientation orient_surface(const ModelMesh& mesh, const Elements& elements, std:
         fmt::format("{}, from {} to {}", orientation.defect, describe_node(mesh, number.rows()[orientation.where.low]),
                     describe_node(mesh, number.rows()[orientation.where.high])),
         at_node(mesh, number.rows()[orientation.where.low], ErrorKind::not_manifold));
+  for (auto& edge : orientation.of_many)
+    for (Index& node : edge) node = number.rows()[node];
+  if (!orientation.of_many.empty() || orientation.flipped > 0) {  // only then can there be any
+    refuse_twins(mesh, elements.triangles);
+    refuse_twins(mesh, elements.quads);
+  }
   return orientation;
 }
 
@@ -205,10 +223,38 @@ void add_constraints(const std::vector<std::array<Index, N>>& elements, const Fi
     }
 }
 
+/// Edges of the part where other sheets meet it.
+void add_edges_of_many(const std::vector<std::array<Index, 2>>& of_many, SurfacePart& part) {
+  if (of_many.empty()) return;
+  std::vector<std::pair<Index, Index>> numbers;  // row of the model, of the part
+  for (Index i = 0; i < part.rows.size(); ++i) numbers.emplace_back(part.rows[i], i);
+  std::sort(numbers.begin(), numbers.end());
+  const auto number = [&](Index row) {
+    const auto at = std::lower_bound(numbers.begin(), numbers.end(), std::pair(row, Index(0)));
+    return at != numbers.end() && at->first == row ? at->second : kNone;
+  };
+  std::vector<std::array<Index, 2>> wanted;
+  for (const auto& [row, other_row] : of_many)
+    if (const Index a = number(row), b = number(other_row); a != kNone && b != kNone)
+      wanted.push_back({std::min(a, b), std::max(a, b)});
+  std::sort(wanted.begin(), wanted.end());
+  const auto add = [&](const auto& elements) {
+    for (const auto& element : elements)
+      for (std::size_t k = 0; k < element.size(); ++k) {
+        const Index a = element[k], b = element[(k + 1) % element.size()];
+        const std::array<Index, 2> edge{std::min(a, b), std::max(a, b)};
+        if (std::binary_search(wanted.begin(), wanted.end(), edge)) part.patch.constraints.push_back(edge);
+      }
+  };
+  add(part.patch.triangles);
+  add(part.patch.quads);
+}
+
 void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
-                     const std::vector<Index>& touching, SurfacePart& part) {
+                     const Orientation& orientation, const std::vector<Index>& touching, SurfacePart& part) {
   add_constraints(part.patch.triangles, fixed_edges, part);
   add_constraints(part.patch.quads, fixed_edges, part);
+  add_edges_of_many(orientation.of_many, part);
   auto& constraints = part.patch.constraints;
   sort_unique(constraints);
 
@@ -301,7 +347,7 @@ SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedE
   const std::vector<Index> touching = nodes_of_several_parts(elements, orientation, local);
   for (const std::vector<Index>& members : members_of_parts(orientation)) {
     SurfacePart part = make_part(mesh, elements, orientation, members, local);
-    set_constraints(mesh, use, fixed_edges, entity, touching, part);
+    set_constraints(mesh, use, fixed_edges, entity, orientation, touching, part);
     surface.parts.push_back(std::move(part));
   }
   return surface;
