@@ -44,11 +44,6 @@ TEST_CASE("errors: kind, place and node say what the words say") {
   CHECK(nowhere.subject->kind == ErrorSubject::Kind::node);
   CHECK(nowhere.subject->number == 4);
 
-  const ErrorDetails bent = details_after([](Patch& p) { p.points[8].z() = 1; });
-  CHECK(bent.kind == ErrorKind::not_planar);
-  REQUIRE(bent.place);
-  REQUIRE(bent.subject);
-
   const ErrorDetails unknown = details_after([](Patch& p) { p.triangles[0][1] = 77; });
   CHECK(unknown.kind == ErrorKind::bad_element);
   CHECK(unknown.subject->number == 77);
