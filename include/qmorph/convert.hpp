@@ -17,15 +17,19 @@ struct Conversion {
   ConversionReport report;
 };
 
-/// Turns the triangles of a planar surface into quads (Q-Morph, Owen et al. 1999).
+/// Turns the triangles of a surface, planar or curved, into quads (Q-Morph, Owen et al. 1999).
 ///
 /// Guarantees, for every region (triangles joined through edges that are no constraints): every boundary edge and
 /// constraint edge of the input is an edge of the result, no fixed node moves, the orientation is the input's,
 /// every corner of every element is strictly convex, and no triangle is left where the number of
 /// boundary sides is even, exactly one where it is odd. The result depends on the arguments alone.
 ///
-/// \throws SurfaceError if the surface is not planar, not a manifold, not oriented consistently, overlaps itself,
-///         has a NaN coordinate, or cannot be converted without a bad element. It says where.
+/// On a curved surface all nodes of the result lie on the triangles of the input, and corners are convex by their normals, but
+/// where the triangles themselves are folded. Edges that are sharper than `Options::crease_angle` stay, whole or with a node in their
+/// middle, and so do the tips of cones. Edges of more than two triangles stay as constraints do.
+///
+/// \throws SurfaceError if the surface is not oriented consistently, overlaps itself in a plane, has a NaN coordinate, no area or
+///         an element that uses a node twice, or cannot be converted without a bad element. It says where.
 /// \throws Cancelled if `Options::progress` says so; whatever it or `Options::observer` throws
 /// Cost: linear in the number of triangles.
 Conversion convert(const Patch& patch, const Options& options = {});

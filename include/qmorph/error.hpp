@@ -21,7 +21,6 @@ enum class ErrorKind {
   // Why one surface cannot be converted:
   surface,     ///< none of the following
   not_finite,  ///< a coordinate is NaN, infinite, or too large to compute with
-  not_planar,
   no_area,        ///< its triangles have no area in sum: it is closed, folded or degenerate
   not_manifold,   ///< more than two elements meet at an edge, or they are not oriented alike
   overlap,        ///< it lies over itself

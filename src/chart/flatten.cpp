@@ -20,6 +20,8 @@ constexpr double kLeastHeight = 1e-3;
 constexpr int kMostRounds = 30;
 /// Rounds end when one lowers the energy by less than this share of it.
 constexpr double kLeastGain = 0.02;
+/// Points go so many times as far as a round takes them: fewer rounds do.
+constexpr double kOvershoot = 1.7;
 /// A triangle with a smaller sine is as bad as one that is turned over.
 constexpr double kLeastSine = 1e-4;
 /// Distortions are no larger than the inverse of this.
@@ -86,11 +88,14 @@ class Flattening2D {
     solve();
     double energy = turn();
     for (int round = 1; round < kMostRounds; ++round) {
+      const std::vector<Vec2> before = points_;
       solve();
+      for (std::size_t v = 0; v < points_.size(); ++v) points_[v] = before[v] + kOvershoot * (points_[v] - before[v]);
       const double now = turn();
       if (!(now < (1 - kLeastGain) * energy)) break;
       energy = now;
     }
+    solve();
     for (Vec2& p : points_) p *= unit_;
     return std::move(points_);
   }
@@ -112,7 +117,8 @@ class Flattening2D {
 
   void factorise() {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(6 * shapes_.size() + 1);
+    entries.reserve(9 * shapes_.size() + 1);
+    pulls_.reserve(3 * shapes_.size());
     for (Index t = 0; t < shapes_.size(); ++t)
       for (int i = 0; i < 3; ++i) {
         const double weight = 0.5 * cotangent(shapes_[t], i);
@@ -120,6 +126,8 @@ class Flattening2D {
         entries.emplace_back(p, p, weight);
         entries.emplace_back(q, q, weight);
         entries.emplace_back(std::max(p, q), std::min(p, q), -weight);
+        const Complex pull = weight * shapes_[t].side(i);
+        pulls_.emplace_back(pull.real(), pull.imag());
       }
     entries.emplace_back(0, 0, 1);  // holds one point
     Matrix matrix(Eigen::Index(points_.size()), Eigen::Index(points_.size()));
@@ -161,16 +169,38 @@ class Flattening2D {
 
   /// Points for the rotations.
   void solve() {
-    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(Eigen::Index(points_.size()), 2);
-    for (Index t = 0; t < shapes_.size(); ++t)
+    std::vector<Vec2> right(points_.size(), Vec2::Zero());
+    for (Index t = 0; t < shapes_.size(); ++t) {
+      const Vec2 turn(rotations_[t].real(), rotations_[t].imag());
+      const auto& corners = surface_.corners(t);
       for (int i = 0; i < 3; ++i) {
-        const Complex pull = 0.5 * cotangent(shapes_[t], i) * rotations_[t] * shapes_[t].side(i);
-        const Index p = surface_.corners(t)[i], q = surface_.corners(t)[(i + 1) % 3];
-        right.row(q) += Eigen::RowVector2d(pull.real(), pull.imag());
-        right.row(p) -= Eigen::RowVector2d(pull.real(), pull.imag());
+        const Vec2& pull = pulls_[3 * t + i];
+        const Vec2 turned(turn.x() * pull.x() - turn.y() * pull.y(), turn.x() * pull.y() + turn.y() * pull.x());
+        right[corners[(i + 1) % 3]] += turned;
+        right[corners[i]] -= turned;
       }
-    const Eigen::MatrixX2d solution = solver_.solve(right);
-    for (std::size_t v = 0; v < points_.size(); ++v) points_[v] = solution.row(Eigen::Index(v)).transpose();
+    }
+    substitute(right);
+  }
+
+  /// Both coordinates at a time: it is the memory of the factor that takes the time.
+  void substitute(const std::vector<Vec2>& right) {
+    const auto& order = solver_.permutationP().indices();
+    const auto& factor = solver_.matrixL().nestedExpression();
+    const auto& diagonal = solver_.vectorD();
+    std::vector<Vec2> x(right.size());
+    for (std::size_t v = 0; v < right.size(); ++v) x[order[Eigen::Index(v)]] = right[v];
+    const Eigen::Index n = factor.cols();
+    for (Eigen::Index column = 0; column < n; ++column)
+      for (Matrix::InnerIterator at(factor, column); at; ++at)
+        if (at.row() > column) x[at.row()] -= at.value() * x[column];
+    for (Eigen::Index column = n; column-- > 0;) {
+      Vec2 value = x[column] / diagonal[column];
+      for (Matrix::InnerIterator at(factor, column); at; ++at)
+        if (at.row() > column) value -= at.value() * x[at.row()];
+      x[column] = value;
+    }
+    for (std::size_t v = 0; v < right.size(); ++v) points_[v] = x[order[Eigen::Index(v)]];
   }
 
   /// Rotations for the points. Returns what is left between the two.
@@ -190,6 +220,7 @@ class Flattening2D {
   double unit_ = 1;
   std::vector<Vec2> points_;
   std::vector<Complex> rotations_;
+  std::vector<Vec2> pulls_;  ///< by side: what it adds to the right hand side before it is turned
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 

@@ -62,12 +62,13 @@ class Turning {
     });
     double best = sine_around(corner);
     constexpr double kLargest = 0.25, kSmallest = 1e-4;
-    constexpr int kDirections = 8;
-    for (double step = kLargest; step > kSmallest;) {
+    constexpr int kDirections = 8, kMostSteps = 40;
+    double step = kLargest;
+    for (int k = 0; k < kMostSteps && step > kSmallest; ++k) {
       const Vec2 from = p;
       Vec2 to = from;
-      for (int k = 0; k < kDirections; ++k) {
-        p = from + rotated(Vec2(step * longest, 0), 2 * std::numbers::pi * k / kDirections);
+      for (int turn = 0; turn < kDirections; ++turn) {
+        p = from + rotated(Vec2(step * longest, 0), 2 * std::numbers::pi * turn / kDirections);
         const double here = sine_around(corner);
         if (here > best) best = here, to = p;
       }

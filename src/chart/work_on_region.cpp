@@ -24,6 +24,7 @@ class Worker {
   Worker(const CurvedRegion& region, const Options& options, Task task)
       : region_(region), options_(options), task_(task), mesh_(region.start()) {
     options_.part_triangles = 0;  // parts have been cut already
+    if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
 
   RegionWork run() {
@@ -47,7 +48,8 @@ class Worker {
     for (std::size_t side = 0; side < is_interface.size(); ++side)
       if (is_crease[side]) is_interface[side] = false;
     interface_ = edges_on(mesh_, is_interface);
-    if (!interface_.empty()) straighten_interfaces();
+    // Between quads that are there already an interface is as good as it can be.
+    if (!interface_.empty() && task_ == Task::convert) straighten_interfaces();
     const std::vector<char> changed = make_parts_even(mesh_, opposite_, division_, creases_, interface_, background());
     for (Index p = 0; p < division_.parts.size(); ++p)
       if (changed[p] || !division_.laid_out[p])

@@ -313,6 +313,8 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
   if (task_ == Task::measure) {
     const std::string where = find_bent_corner(model_.mesh, model_.mesh.entities[entity]);
     if (!where.empty()) report.reason = "a curved edge turns an element over " + where;
+    if (!surface.edge_of_many.empty())
+      report.reason = "it is not a manifold: more than two elements share an edge, " + surface.edge_of_many;
   }
   try {
     if (task_ == Task::convert) refuse_bad_quads(surface);

@@ -344,6 +344,9 @@ SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedE
   if (orientation.flipped)
     surface.warnings.push_back(
         fmt::format("{} elements were oriented against their neighbours and have been turned", orientation.flipped));
+  if (!orientation.of_many.empty())
+    surface.edge_of_many = fmt::format("from {} to {}", describe_node(mesh, orientation.of_many[0][0]),
+                                       describe_node(mesh, orientation.of_many[0][1]));
   const std::vector<Index> touching = nodes_of_several_parts(elements, orientation, local);
   for (const std::vector<Index>& members : members_of_parts(orientation)) {
     SurfacePart part = make_part(mesh, elements, orientation, members, local);

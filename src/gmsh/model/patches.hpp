@@ -24,6 +24,7 @@ struct SurfaceMesh {
   std::uint32_t entity = 0;  ///< index into ModelMesh::entities
   std::vector<SurfacePart> parts;
   std::vector<std::string> warnings;
+  std::string edge_of_many;  ///< where more than two elements meet at an edge, or empty
   bool quads_may_go = false;  ///< the quads of the input are not kept: what they are made into takes their tags
 };
 
