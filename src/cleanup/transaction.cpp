@@ -17,6 +17,14 @@ Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   return worth;
 }
 
+std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces) {
+  std::vector<std::pair<double, Index>> sines;
+  for (Index f : faces) sines.emplace_back(mesh.smallest_sine(f), f);
+  std::sort(sines.begin(), sines.end());
+  for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = sines[i].second;
+  return faces;
+}
+
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate) {
   std::vector<Index> nodes;
   for (Index h : {candidate.h, kernel::Mesh::twin(candidate.h), candidate.k})

@@ -14,6 +14,9 @@ struct Worth {
 };
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 
+/// The faces by their scaled Jacobians, the smallest first.
+std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces);
+
 /// Nodes of the faces that a candidate starts from.
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
 

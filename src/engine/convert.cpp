@@ -8,15 +8,16 @@
 namespace qmorph {
 namespace {
 
-SurfaceWork convert_patch(const Patch& patch, const Options& options) {
+SurfaceWork convert_patch(const Patch& patch, const Options& options, double allowed) {
   require_sound(patch);
-  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
+  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}, 0};
   const Surface surface(patch);
   require_no_overlap(surface.regions, surface.plane);
-  return work_on_regions(surface, options,
-                         [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
-                           return convert_region(surface.regions[r], surface.plane, own, report, record);
-                         });
+  return work_on_regions(
+      surface, options, allowed,
+      [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
+        return convert_region(surface.regions[r], surface.plane, own, most, report, record);
+      });
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ Start make_start(const Region& region, std::size_t triangles, const Plane& plane
 
 /// Uses up `start`.
 kernel::Mesh improve_region(Start& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            ConversionReport& report, Record& record) {
-  Pipeline pipeline(options, report, record, input);
+                            double allowed, ConversionReport& report, Record& record) {
+  Pipeline pipeline(options, report, record, input, allowed);
   kernel::Mesh mesh = std::move(start.mesh);
   pipeline.finish(mesh);
   const std::optional<SurfaceError> fault = find_fault(mesh, start.region, plane);
@@ -44,7 +44,7 @@ kernel::Mesh improve_region(Start& start, const kernel::Mesh& input, const Plane
   return triangles;
 }
 
-SurfaceWork improve_patch(const Patch& patch, const Options& options) {
+SurfaceWork improve_patch(const Patch& patch, const Options& options, double allowed) {
   require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
@@ -58,9 +58,10 @@ SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options, [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
+      surface, options, allowed,
+      [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
         const kernel::Mesh input = wants_stages(own) ? join_halves(surface.regions[r], triangles) : kernel::Mesh();
-        return improve_region(starts[r], input, surface.plane, own, report, record);
+        return improve_region(starts[r], input, surface.plane, own, most, report, record);
       });
 }
 

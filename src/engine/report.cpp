@@ -15,6 +15,8 @@ void ConversionReport::add(const ConversionReport& other) {
   odd_regions += other.odd_regions;
   front_quads += other.front_quads;
   leftover_triangles += other.leftover_triangles;
+  budgets_spent += other.budgets_spent;
+  budgets_spent += other.budgets_spent;
   front_seconds += other.front_seconds;
   elimination_seconds += other.elimination_seconds;
   cleanup_seconds += other.cleanup_seconds;

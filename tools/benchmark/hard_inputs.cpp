@@ -66,7 +66,7 @@ Patch boundary_layer() {
     for (Index& v : t)
       if (v % 161 == 160) v -= 160;  // a ring
   keep_triangles(patch, [](const Vector2d&) { return true; });
-  map_points(patch, [](const Vector2d& p) { return on_circle(p.x() / 160, 1 + 1e-6 * std::expm1(0.23 * p.y()) / 0.23); });
+  map_points(patch, [](const Vector2d& p) { return on_circle(-p.x() / 160, 1 + 1e-6 * std::expm1(0.23 * p.y()) / 0.23); });
   return patch;
 }
 
@@ -274,10 +274,12 @@ Patch graded(int columns, int rows, double ratio) {
   return patch;
 }
 
-Patch turned(int columns, int rows, double jitter, double flattest, int rounds) {
+/// An edge is turned wherever that leaves two triangles, good or bad.
+Patch turned(int columns, int rows) {
   Random random(13);
-  Patch patch = lattice(columns, rows, jitter, random);
-  for (int i = 0; i < rounds; ++i) turn_edges(patch, 0.5, flattest, random);
+  Patch patch = holes(columns, rows, 20);
+  constexpr double kFlattest = 1e-3;
+  for (int i = 0; i < 6; ++i) turn_edges(patch, 0.5, kFlattest, random);
   return patch;
 }
 
@@ -288,6 +290,10 @@ Patch mixed(int columns, int rows, double share) {
   std::vector<char> gone(patch.triangles.size(), 0);
   for (const InnerEdge& e : inner_edges(patch)) {
     if (gone[e.left_triangle] || gone[e.right_triangle] || !random.chance(share)) continue;
+    const auto corner = [&](Index before, Index at, Index after) {
+      return (patch.points[after] - patch.points[at]).cross(patch.points[before] - patch.points[at]).z();
+    };
+    if (corner(e.left, e.a, e.right) < 0.2 || corner(e.right, e.b, e.left) < 0.2) continue;
     gone[e.left_triangle] = gone[e.right_triangle] = 1;
     patch.quads.push_back({e.a, e.right, e.b, e.left});
   }
@@ -307,8 +313,8 @@ std::vector<HardInput> hard_inputs() {
     return lattice(columns, rows, jitter, own);
   };
   return {
-      {"lattice stretched 5 to 1", [=] { return std::vector{scaled(make(100, 100, 0.2), 5, 1)}; }},
-      {"lattice stretched 30 to 1", [=] { return std::vector{scaled(make(100, 100, 0.2), 30, 1)}; }},
+      {"lattice stretched 5 to 1", [=] { return std::vector{scaled(holes(100, 100, 20), 5, 1)}; }},
+      {"lattice stretched 30 to 1", [=] { return std::vector{scaled(holes(100, 100, 20), 30, 1)}; }},
       {"right triangles stretched 100 to 1", [=] { return std::vector{scaled(grid(100, 100), 100, 1)}; }},
       {"right triangles stretched 100 to 1, a small surface", [=] { return std::vector{scaled(grid(25, 25), 100, 1)}; }},
       {"lattice stretched ten thousand to 1", [=] { return std::vector{scaled(make(70, 70, 0.2), 1e4, 1)}; }},
@@ -345,8 +351,7 @@ std::vector<HardInput> hard_inputs() {
       {"comb, teeth of two long triangles", [=] { return std::vector{comb(700)}; }},
       {"sizes from 1 to a million", [=] { return std::vector{graded(220, 100, 1e6)}; }},
       {"cloud of points", [=] { Random r(2); return std::vector{delaunay(cloud(10000, r))}; }},
-      {"nodes moved by nearly half an edge", [=] { return std::vector{turned(100, 100, 0.4, 1e-3, 0)}; }},
-      {"edges turned at random", [=] { return std::vector{turned(100, 100, 0.1, 1e-3, 4)}; }},
+      {"edges turned at random", [=] { return std::vector{turned(100, 100)}; }},
       {"half of it quads already", [=] { return std::vector{mixed(120, 120, 0.3)}; }},
   };
 }

@@ -30,17 +30,18 @@ Figures convert(const HardInput& input) {
   qmorph::QualityAccumulator quality;
   std::size_t refused = 0;
   std::string reason;
-  qmorph::ConversionStats stats;
+  qmorph::ConversionReport report;
   for (const qmorph::Outcome& outcome : outcomes) {
-    if (!outcome.mesh) {
-      ++refused, reason = outcome.reason;
+    if (!outcome.conversion) {
+      ++refused, reason = outcome.error->what();
       continue;
     }
-    stats.add(outcome.mesh->stats);
-    quality.add(outcome.mesh->points, outcome.mesh->triangles, outcome.mesh->quads, Eigen::Vector3d::UnitZ());
+    const qmorph::QuadMesh& mesh = outcome.conversion->mesh;
+    report.add(outcome.conversion->report);
+    quality.add(mesh.points, mesh.triangles, mesh.quads, Eigen::Vector3d::UnitZ());
   }
   const qmorph::Quality q = quality.result();
-  std::printf(" %8zu %6zu %7.4f %6.3f %6.2f %6.2f %6.2f %6.2f", q.quads, q.triangles, q.scaled_jacobian_min, q.scaled_jacobian_mean, stats.front_seconds, stats.elimination_seconds, stats.cleanup_seconds, stats.smoothing_seconds);
+  std::printf(" %8zu %6zu %7.4f %6.3f %6.2f %6.2f %6.2f %6.2f", q.quads, q.triangles, q.scaled_jacobian_min, q.scaled_jacobian_mean, report.front_seconds, report.elimination_seconds, report.cleanup_seconds, report.smoothing_seconds);
   if (q.inverted > 0) std::printf(" %zu inverted", q.inverted);
   if (refused > 0) std::printf(" %zu refused: %.90s", refused, reason.c_str());
   std::printf("\n");

@@ -2,7 +2,7 @@
 #pragma once
 /// Flat triangulations in z = 0, counter-clockwise, to make hard inputs of.
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <functional>
 #include <vector>
