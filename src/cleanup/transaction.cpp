@@ -7,6 +7,7 @@ namespace qmorph::cleanup {
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   const std::vector<Index> faces = topology::faces_around(mesh, nodes);
   Worth worth;
+  worth.faces = faces.size();
   double sum = 0;
   for (Index f : faces) {
     const double sine = mesh.smallest_sine(f);

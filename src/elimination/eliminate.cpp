@@ -280,7 +280,8 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& b
 }
 
 /// Triangle f meets the nearest partner, whatever elements that makes: they are valid, and cleanup follows.
-bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
+bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget, Search& search,
+                      Index f) {
   const std::vector<Index> path = search.path_to_triangle(f, 0);
   if (path.empty()) return false;
   std::vector<Index> nodes;
@@ -290,6 +291,7 @@ bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, Search& sea
     return false;
   }
   mesh.commit();
+  if (budget.is_spent()) return true;
   mesh.begin();
   smoothing::smooth_near(mesh, smoothing, nodes, kRings) ? mesh.commit() : mesh.rollback();
   return true;
@@ -311,7 +313,8 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing, M
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
       const bool passed = pass_at_once(mesh, thorough, budget, search, f, kLight) ||
                           walk(mesh, thorough, budget, search, f) ||
-                          (means == Means::cutting && mesh.is_triangle(f) && pair_for_certain(mesh, thorough, search, f));
+                          (means == Means::cutting && mesh.is_triangle(f) &&
+                           pair_for_certain(mesh, thorough, budget, search, f));
       progress = progress || passed;
     }
   }

@@ -99,13 +99,13 @@ class RegionConverter {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
       const bool may_try_again = size <= 2 * options_.retry_triangles;
-      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, true);
+      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, allowed_, true);
       if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
       fault = first.fault;
       if (!may_try_again) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
-    Attempt paired = attempt(std::move(start_), options_, false);
+    Attempt paired = attempt(std::move(start_), options_, allowed_ - double(cost_), false);
     if (paired.fault) throw *fault;
     return paired;
   }
@@ -138,7 +138,7 @@ class RegionConverter {
     const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
     // Where a boundary is all spikes an attempt may cost ten times as much as usual, and no try is better.
     constexpr std::size_t kWorkPerTriangle = 1000;
-    const std::size_t first = cost_;
+    const std::size_t first = cost_;  // of the attempt before all tries, which are about as dear
     for (const Options& options : variants_of(options_)) {
       triangles += size;
       if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
@@ -147,7 +147,7 @@ class RegionConverter {
         ++best.report.budgets_spent;
         break;
       }
-      Attempt other = attempt(start_, options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
+      Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = judge(other.mesh);
       if (other.fault || others.sum() <= worth.sum()) continue;
       best = std::move(other);
@@ -156,12 +156,12 @@ class RegionConverter {
     return best;
   }
 
-  Attempt attempt(kernel::Mesh mesh, const Options& options, bool with_front,
+  Attempt attempt(kernel::Mesh mesh, const Options& options, double allowed, bool with_front,
                   std::size_t most_faces = std::size_t(-1)) {
     Attempt result{std::move(mesh)};
     Options final = options;
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
-    Pipeline pipeline(final, result.report, result.record, input_, allowed_ - double(cost_));
+    Pipeline pipeline(final, result.report, result.record, input_, allowed);
     if (with_front) pipeline.advance_front(result.mesh, plane_);
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = SurfaceError("too many elements");

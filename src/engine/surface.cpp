@@ -150,7 +150,7 @@ class Patches {
       records_[i] = std::move(result.record);
       cost = result.cost;
     } catch (const SurfaceError& error) {
-      outcomes_[i].error = error;
+      if (!outcomes_[i].conversion) outcomes_[i].error = error;
     }
     outcomes_[i].seconds += std::chrono::duration<double>(Clock::now() - start).count();
     return cost;

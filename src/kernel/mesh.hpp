@@ -74,7 +74,9 @@ class Mesh {
       h = next(h);
     } while (h != start);
   }
+  /// Edges at v, or `kManyEdges` for so many and more: those who ask want to tell few, and walking round a fan each time is quadratic.
   Index valence(Index v) const;
+  static constexpr Index kManyEdges = 64;
   /// Of all vertices, by vertex; 0 for dead ones.
   std::vector<Index> valences() const;
   /// The half-edge from a to b, or kNone. O(valence).

@@ -302,10 +302,10 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   }
   std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });
   const std::vector<Index> faces = topology::faces_around(mesh, around);
+  mesh.add_work(faces.size());
   if (!std::all_of(faces.begin(), faces.end(), [&](Index f) { return mesh.is_valid_face(f); }))
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   Star star;
-  star.add_work(faces.size());
   for (int pass = 0; pass < options.iterations; ++pass) {
     double moved = 0;
     for (Index v : around) moved = std::max(moved, relax_node(mesh, v, star));
