@@ -8,7 +8,7 @@ namespace qmorph {
 /// The work (`kernel::Mesh::work()`) that a conversion of so many triangles may cost in all. An ordinary one takes 50 to 300 a
 /// triangle; 1000 take about 17 microseconds. Few triangles may cost more each: the time that they take is nobody's concern.
 inline double allowance(double triangles) {
-  constexpr double kEach = 1650, kFew = 4.2e6, kLessEach = 2000;
+  constexpr double kEach = 1800, kFew = 4.2e6, kLessEach = 2000;
   return std::max(kEach * triangles, kFew - kLessEach * triangles);
 }
 

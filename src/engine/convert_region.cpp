@@ -85,6 +85,9 @@ bool is_small(const Region& region, const Options& options) {
   return 2 * region.triangles.size() <= options.retry_triangles;
 }
 
+/// What an attempt costs in a region of no size.
+constexpr std::size_t kWorkPerAttempt = 200;
+
 class RegionConverter {
  public:
   /// `allowed`: work that all attempts together may cost, more or less.
@@ -98,7 +101,8 @@ class RegionConverter {
     if (!fault) {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
-      const bool may_try_again = size <= 2 * options_.retry_triangles;
+      constexpr std::size_t kFewest = 3;  // with fewer a front has no choice
+      const bool may_try_again = size >= kFewest && size <= 2 * options_.retry_triangles;
       Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, allowed_, true);
       if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
       fault = first.fault;
@@ -159,6 +163,7 @@ class RegionConverter {
   Attempt attempt(kernel::Mesh mesh, const Options& options, double allowed, bool with_front,
                   std::size_t most_faces = std::size_t(-1)) {
     Attempt result{std::move(mesh)};
+    result.mesh.add_work(kWorkPerAttempt);
     Options final = options;
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(final, result.report, result.record, input_, allowed);

@@ -148,7 +148,8 @@ class Rounds {
   }
 
   void run_boundary() {
-    const std::vector<Pattern> patterns = read(boundary_cases());
+    std::vector<Pattern> patterns;
+    if (options_.boundary_cases) patterns = read(boundary_cases());
     run([&](Index v) {
       if (options_.boundary_cases) resolve(v, patterns);
       if (options_.transition_cases) make_transition(v);
