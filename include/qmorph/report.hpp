@@ -13,6 +13,9 @@ struct ConversionReport {
   std::size_t worse_regions = 0;       ///< of improve(): got worse quads, since triangles had to go
   std::size_t front_quads = 0;         ///< quads that the advancing front made
   std::size_t leftover_triangles = 0;  ///< triangles that the front left to triangle elimination
+  /// Improvements that ended before they were done, since they had cost as much as their triangles allow: the result is valid, but
+  /// could be better.
+  std::size_t budgets_spent = 0;
   double front_seconds = 0;
   double elimination_seconds = 0;
   double cleanup_seconds = 0;

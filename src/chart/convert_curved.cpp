@@ -5,6 +5,7 @@
 
 #include "chart/collect.hpp"
 #include "chart/work_on_region.hpp"
+#include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "quality/size_ratio.hpp"
@@ -13,7 +14,8 @@
 namespace qmorph::chart {
 namespace {
 
-std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task) {
+std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, double allowed,
+                                    Task task) {
   std::vector<RegionWork> works(regions.size());
   double total = 0;
   for (const CurvedRegion& region : regions) total += double(region.region.triangles.size());
@@ -24,7 +26,8 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    works[r] = work_on_region(regions[r], own, task);
+    const double most = part_of(allowed, double(regions[r].region.triangles.size()), total, regions.size());
+    works[r] = work_on_region(regions[r], own, most, task);
   });
   shared.finish();
   return works;
@@ -50,13 +53,14 @@ SurfaceRecord record_of(const Patch& patch, const Patch& kept, const std::vector
 
 /// `kept` has those quads of the patch that stay.
 SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vector<CurvedRegion>& regions,
-                           const Options& options, Task task) {
-  std::vector<RegionWork> works = work_on_all(regions, options, task);
+                           const Options& options, double allowed, Task task) {
+  std::vector<RegionWork> works = work_on_all(regions, options, allowed, task);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     meshes.push_back(&works[r].mesh);
     result.conversion.report.add(works[r].report);
+    result.cost += works[r].cost;
     ++result.conversion.report.regions;
     result.conversion.report.odd_regions += regions[r].region.boundary_sides % 2;
   }
@@ -67,16 +71,16 @@ SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vec
 
 }  // namespace
 
-SurfaceWork convert_curved(const Patch& patch, const Options& options) {
-  return work_on_curved(patch, patch, curved_regions(patch, options.crease_angle), options, Task::convert);
+SurfaceWork convert_curved(const Patch& patch, const Options& options, double allowed) {
+  return work_on_curved(patch, patch, curved_regions(patch, options.crease_angle), options, allowed, Task::convert);
 }
 
-SurfaceWork improve_curved(const Patch& patch, const Options& options) {
+SurfaceWork improve_curved(const Patch& patch, const Options& options, double allowed) {
   Patch halves = patch;
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(patch, halves, regions, options, Task::improve);
+  return work_on_curved(patch, halves, regions, options, allowed, Task::improve);
 }
 
 }  // namespace qmorph::chart

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/allowance.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/improve_region.hpp"
 #include "engine/pipeline.hpp"
@@ -52,16 +53,16 @@ bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {
 
 }  // namespace
 
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, Task task, ConversionReport& report,
+kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
                           Record& record) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(chart);
   const Region region = piece.region(chart.flat());
-  if (task == Task::convert) return qmorph::convert_region(region, plane, options, report, record);
+  if (task == Task::convert) return qmorph::convert_region(region, plane, options, allowed, report, record);
   kernel::Mesh mesh = piece.mesh(chart.flat());
   const kernel::Mesh input = mesh;
   const ImproveStart start = start_improving(region, std::move(mesh), plane, options);
-  return improve_region(start, input, plane, options, report, record);
+  return improve_region(start, input, plane, options, allowed, report, record);
 }
 
 std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
@@ -76,7 +77,7 @@ std::optional<Reworked> clean_window(const LaidOut& window, const Options& optio
   own.progress = {};
   ConversionReport report;
   Record record;
-  Pipeline pipeline(own, report, record, work.mesh);
+  Pipeline pipeline(own, report, record, work.mesh, allowance(double(work.mesh.face_slots())));
   pipeline.clean_near(work.mesh, nodes);
   pipeline.polish(work.mesh);
   if (count_bad(work.mesh) > bad || folds_onto_itself(work.mesh, piece)) return {};

@@ -14,8 +14,8 @@ namespace qmorph::chart {
 /// Triangles that are converted, or triangles and quads that are improved.
 enum class Task { convert, improve };
 
-/// What all stages make of a part. \throws SurfaceError if no valid result was found
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, Task task, ConversionReport& report,
+/// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was found
+kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
                           Record& record);
 
 /// A window in which irregular nodes have been cancelled and the rest smoothed. Nothing if it was better before.

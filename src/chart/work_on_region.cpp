@@ -8,6 +8,7 @@
 #include "chart/interfaces.hpp"
 #include "chart/topology.hpp"
 #include "chart/windows.hpp"
+#include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "space/improve.hpp"
@@ -21,8 +22,8 @@ constexpr WindowSize kCleaningWindow{8, 5, 800};
 
 class Worker {
  public:
-  Worker(const CurvedRegion& region, const Options& options, Task task)
-      : region_(region), options_(options), task_(task), mesh_(region.start()) {
+  Worker(const CurvedRegion& region, const Options& options, double allowed, Task task)
+      : region_(region), options_(options), allowed_(allowed), task_(task), mesh_(region.start()) {
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
@@ -82,13 +83,16 @@ class Worker {
       if (shared.is_over()) return;
       Options own = options_;
       own.progress = progress[p];
+      const double most =
+          part_of(allowed_, double(division_.parts[p].size()), double(mesh_.faces.size()), parts);
       const LaidOut& part = *division_.laid_out[p];
-      results[p] = {&part.piece, work_on_part(part, own, task_, reports[p], records[p]), {}};
+      results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p]), {}};
       results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
     });
     shared.finish();
     for (std::size_t p = 0; p < parts; ++p) {
       work_.report.add(reports[p]);
+      work_.cost += double(results[p].mesh.work());
       for (std::size_t i = 0; i < kStages; ++i) work_.seconds[i] += records[p].seconds[i];
       for (auto& front : records[p].fronts) work_.fronts.push_back(std::move(front));
     }
@@ -133,6 +137,7 @@ class Worker {
 
   const CurvedRegion& region_;
   Options options_;
+  const double allowed_;
   const Task task_;
   RegionWork work_;
   SurfaceMesh mesh_;
@@ -143,8 +148,8 @@ class Worker {
 
 }  // namespace
 
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, Task task) {
-  return Worker(region, options, task).run();
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+  return Worker(region, options, allowed, task).run();
 }
 
 }  // namespace qmorph::chart

@@ -14,13 +14,14 @@ namespace qmorph::chart {
 struct RegionWork {
   SurfaceMesh mesh;  ///< vertices of the region keep their numbers
   ConversionReport report;
+  double cost = 0;  ///< work of all parts
   std::vector<SurfaceMesh> stages;  ///< before the last one; none if nobody wants them
   std::array<double, kStages> seconds{};
   std::vector<std::unique_ptr<FrontObserver>> fronts;
 };
 
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths and mends in
-/// space. \throws SurfaceError
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, Task task);
+/// space, for about as much work as is allowed (engine/allowance.hpp). \throws SurfaceError
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
 
 }  // namespace qmorph::chart

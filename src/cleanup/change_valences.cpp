@@ -15,8 +15,8 @@ constexpr int kRings = 2;
 
 class ChangingValences {
  public:
-  ChangingValences(kernel::Mesh& mesh, const SmoothingOptions& smoothing)
-      : mesh_(mesh), score_(mesh), relaxing_(smoothing) {
+  ChangingValences(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
     relaxing_.iterations = 3;
     relaxing_.untangling_sweeps = 8;  // a change that needs more is no improvement
   }
@@ -24,7 +24,7 @@ class ChangingValences {
   std::size_t run(const std::vector<Index>& nodes) {
     for (Index v : nodes) enqueue(v);
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
-    while (!queue_.empty() && most-- > 0) {
+    while (!queue_.empty() && most-- > 0 && !budget_.is_spent()) {
       const Index v = queue_.pop();
       if (is_defect(v)) improve(v);
     }
@@ -69,6 +69,7 @@ class ChangingValences {
   kernel::Mesh& mesh_;
   Score score_;
   SmoothingOptions relaxing_;
+  const kernel::Budget& budget_;
   NodeQueue queue_;
   std::vector<Index> nodes_;
   std::size_t changes_ = 0;
@@ -76,15 +77,15 @@ class ChangingValences {
 
 }  // namespace
 
-std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
   std::vector<Index> nodes(mesh.vertex_slots());
   std::iota(nodes.begin(), nodes.end(), Index(0));
-  return change_valences_near(mesh, smoothing, nodes);
+  return change_valences_near(mesh, smoothing, nodes, budget);
 }
 
 std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                                 const std::vector<Index>& nodes) {
-  return ChangingValences(mesh, smoothing).run(nodes);
+                                 const std::vector<Index>& nodes, const kernel::Budget& budget) {
+  return ChangingValences(mesh, smoothing, budget).run(nodes);
 }
 
 }  // namespace qmorph::cleanup

@@ -18,6 +18,8 @@ constexpr int kRings = 2;
 constexpr double kStrained = 135 * std::numbers::pi / 180;
 /// Of the changes that are kept, nearly all are valid at once; none was seen that took more than eleven sweeps.
 constexpr int kUntanglingSweeps = 12;
+/// Of a bad face: all changes and layers around it.
+constexpr std::size_t kUsualWork = 20'000;
 
 /// A repair has to pay: a slightly better corner is not worth irregular nodes.
 bool is_clearly_better(const Worth& before, const Worth& after) {
@@ -28,7 +30,8 @@ bool is_clearly_better(const Worth& before, const Worth& after) {
 
 class Repair {
  public:
-  Repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing) : mesh_(mesh), score_(mesh), relaxing_(smoothing) {
+  Repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
     relaxing_.iterations = std::max(relaxing_.iterations, 12);
     relaxing_.untangling_sweeps = kUntanglingSweeps;
   }
@@ -36,9 +39,11 @@ class Repair {
   std::size_t run() {
     for (int pass = 0; pass < kPasses; ++pass) {
       const std::size_t before = changes_;
-      for (Index f = 0; f < mesh_.face_slots(); ++f)
-        if (is_bad(f) && !has_failed(f)) try_face(f);
-      if (changes_ == before) break;
+      if (const std::vector<Index> bad = bad_faces(); budget_.is_short_for(bad.size(), kUsualWork))
+        try_faces(worst_first(mesh_, bad));
+      else
+        for (Index f = 0; f < mesh_.face_slots() && !budget_.is_spent(); ++f) try_face(f);
+      if (changes_ == before || budget_.is_spent()) break;
     }
     return changes_;
   }
@@ -67,7 +72,20 @@ class Repair {
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
 
+  std::vector<Index> bad_faces() const {
+    std::vector<Index> bad;
+    for (Index f = 0; f < mesh_.face_slots(); ++f)
+      if (is_bad(f) && !has_failed(f)) bad.push_back(f);
+    return bad;
+  }
+
+  void try_faces(const std::vector<Index>& faces) {
+    for (Index f : faces)
+      if (!budget_.is_spent()) try_face(f);
+  }
+
   void try_face(Index f) {
+    if (!is_bad(f) || has_failed(f)) return;
     if (improve(f)) {
       ++changes_;
       for (Index v : nodes_) forgive_around(v);
@@ -99,6 +117,7 @@ class Repair {
                      [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
     if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
     for (const Candidate& c : candidates) {
+      if (budget_.is_spent()) return false;
       std::vector<Index> near = nodes_near(mesh_, c);
       near.insert(near.end(), corners.begin(), corners.end());
       if (try_edit(near, [&](std::vector<Index>& nodes) {
@@ -129,6 +148,7 @@ class Repair {
   kernel::Mesh& mesh_;
   Score score_;
   SmoothingOptions relaxing_;
+  const kernel::Budget& budget_;
   std::vector<Index> nodes_;
   std::vector<bool> failed_;  ///< faces around which nothing has changed since nothing was found for them
   std::size_t changes_ = 0;
@@ -136,6 +156,8 @@ class Repair {
 
 }  // namespace
 
-std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing) { return Repair(mesh, smoothing).run(); }
+std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+  return Repair(mesh, smoothing, budget).run();
+}
 
 }  // namespace qmorph::cleanup

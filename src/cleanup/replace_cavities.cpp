@@ -41,8 +41,8 @@ bool is_better_shape(const Worth& before, const Worth& after) {
 
 class Replacing {
  public:
-  Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing)
-      : mesh_(mesh), score_(mesh), size_(mesh), cavity_(mesh), relaxing_(smoothing) {
+  Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), score_(mesh), size_(mesh), cavity_(mesh), relaxing_(smoothing), budget_(budget) {
     relaxing_.iterations = 4;
     relaxing_.untangling_sweeps = 8;  // a filling that needs more does not fit
   }
@@ -50,7 +50,7 @@ class Replacing {
   void run(const std::vector<Index>& nodes) {
     for (Index v : nodes) enqueue(v);
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
-    while (!queue_.empty() && most-- > 0) {
+    while (!queue_.empty() && most-- > 0 && !budget_.is_spent()) {
       const Index v = queue_.pop();
       if (is_defect(v) && improve(v, is_good_enough, 1))
         for (Index u : nodes_)
@@ -71,8 +71,12 @@ class Replacing {
 
   /// Valences as good as they are may give a poor quad a better shape.
   void raise(Index poor) {
-    for (Index v : topology::nodes_of(mesh_, poor))
-      if (is_defect(v) && improve(v, is_better_shape, 0)) return;
+    failed_.resize(mesh_.vertex_slots(), kNone);
+    for (Index v : topology::nodes_of(mesh_, poor)) {
+      if (!is_defect(v) || failed_[v] == changes_) continue;  // tried from another quad, and nothing has changed since
+      if (improve(v, is_better_shape, 0)) return;
+      failed_[v] = Index(changes_);
+    }
   }
 
   std::size_t changes() const { return changes_; }
@@ -88,7 +92,8 @@ class Replacing {
   template <class Accept>
   bool improve(Index v, const Accept& accept, double gain) {
     if (mesh_.valence(v) > kMostValence || !cavity_.start(v)) return false;
-    for (int step = 0; step < kMostGrowth; ++step) {
+    for (int step = 0; step < kMostGrowth && !budget_.is_spent(); ++step) {
+      mesh_.add_work(cavity_.faces().size());
       if (replace(accept, gain)) return true;
       if (!cavity_.grow(kMostQuads)) return false;
     }
@@ -126,38 +131,42 @@ class Replacing {
   ElementSize size_;
   Cavity cavity_;
   SmoothingOptions relaxing_;
+  const kernel::Budget& budget_;
   NodeQueue queue_;
   std::vector<Index> nodes_;
+  std::vector<Index> failed_;  ///< by node: how many changes there had been when raise() found nothing for it
   std::size_t changes_ = 0;
 };
 
 }  // namespace
 
-std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
   std::vector<Index> nodes(mesh.vertex_slots());
   std::iota(nodes.begin(), nodes.end(), Index(0));
-  Replacing replacing(mesh, smoothing);
+  Replacing replacing(mesh, smoothing, budget);
   replacing.run(nodes);
-  replacing.replace_all();
+  if (!budget.is_spent()) replacing.replace_all();
   return replacing.changes();
 }
 
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                                  const std::vector<Index>& nodes) {
-  Replacing replacing(mesh, smoothing);
+                                  const std::vector<Index>& nodes, const kernel::Budget& budget) {
+  Replacing replacing(mesh, smoothing, budget);
   replacing.run(nodes);
   return replacing.changes();
 }
 
-std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
+std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
   constexpr double kPoor = 0.6;
+  constexpr std::size_t kUsualWork = 5'000;  // of a poor face
   std::vector<Index> poor;
   for (Index f = 0; f < mesh.face_slots(); ++f)
     if (mesh.is_live_face(f) && !mesh.is_above(f, kPoor)) poor.push_back(f);
   if (poor.empty()) return 0;
-  Replacing replacing(mesh, smoothing);
+  Replacing replacing(mesh, smoothing, budget);
+  if (budget.is_short_for(poor.size(), kUsualWork)) poor = worst_first(mesh, std::move(poor));
   for (Index f : poor)
-    if (mesh.is_live_face(f) && !mesh.is_above(f, kPoor)) replacing.raise(f);
+    if (!budget.is_spent() && mesh.is_live_face(f) && !mesh.is_above(f, kPoor)) replacing.raise(f);
   return replacing.changes();
 }
 

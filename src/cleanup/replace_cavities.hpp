@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -11,13 +12,16 @@ namespace qmorph::cleanup {
 /// Grows a disc of quads from each irregular node and replaces it by a filling (filling.hpp) whose valences score better,
 /// in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so do
 /// boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
-std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
+                             const kernel::Budget& budget = {});
 
 /// The same, but that it begins with these nodes alone, and never replaces the region as a whole.
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                                  const std::vector<Index>& nodes);
+                                  const std::vector<Index>& nodes, const kernel::Budget& budget = {});
 
-/// Cavities at quads of poor shape get fillings that score no worse and raise the worst corner.
-std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing);
+/// Cavities at quads of poor shape get fillings that score no worse and raise the worst corner; the worst quads come first where
+/// the budget does not last for all.
+std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
+                                  const kernel::Budget& budget = {});
 
 }  // namespace qmorph::cleanup

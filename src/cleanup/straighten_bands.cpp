@@ -131,11 +131,12 @@ class BandFinder {
 
 class Straightening {
  public:
-  Straightening(Mesh& mesh, const SmoothingOptions& smoothing) : mesh_(mesh), relaxing_(smoothing), finder_(mesh) {}
+  Straightening(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), relaxing_(smoothing), budget_(budget), finder_(mesh) {}
 
   std::size_t run() {
     const Index count = mesh_.half_edge_slots();  // not those that this makes
-    for (Index h = 0; h < count; h += 2)
+    for (Index h = 0; h < count && !budget_.is_spent(); h += 2)
       if (finder_.is_rung(h)) straighten(finder_.ahead_of(finder_.beginning(h)));
     return changes_;
   }
@@ -238,6 +239,7 @@ class Straightening {
 
   Mesh& mesh_;
   SmoothingOptions relaxing_;
+  const kernel::Budget& budget_;
   BandFinder finder_;
   std::vector<Index> nodes_;
   std::size_t changes_ = 0;
@@ -245,8 +247,8 @@ class Straightening {
 
 }  // namespace
 
-std::size_t straighten_bands(kernel::Mesh& mesh, const SmoothingOptions& smoothing) {
-  return Straightening(mesh, smoothing).run();
+std::size_t straighten_bands(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+  return Straightening(mesh, smoothing, budget).run();
 }
 
 }  // namespace qmorph::cleanup

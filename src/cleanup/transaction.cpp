@@ -7,6 +7,7 @@ namespace qmorph::cleanup {
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   const std::vector<Index> faces = topology::faces_around(mesh, nodes);
   Worth worth;
+  worth.faces = faces.size();
   double sum = 0;
   for (Index f : faces) {
     const double sine = mesh.smallest_sine(f);
@@ -15,6 +16,14 @@ Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   }
   if (!faces.empty()) worth.mean = sum / double(faces.size());
   return worth;
+}
+
+std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces) {
+  std::vector<std::pair<double, Index>> sines;
+  for (Index f : faces) sines.emplace_back(mesh.smallest_sine(f), f);
+  std::sort(sines.begin(), sines.end());
+  for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = sines[i].second;
+  return faces;
 }
 
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate) {

@@ -11,8 +11,12 @@ namespace qmorph::cleanup {
 /// Shapes of the faces around some nodes, by their scaled Jacobians.
 struct Worth {
   double worst = 1, mean = 1;
+  std::size_t faces = 0;
 };
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+
+/// The faces by their scaled Jacobians, the smallest first.
+std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces);
 
 /// Nodes of the faces that a candidate starts from.
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
@@ -36,11 +40,17 @@ bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, co
              std::vector<Index>& nodes, const Edit& edit, const Accept& accept) {
   const Worth before = worth_around(mesh, near);
   nodes.clear();
+  mesh.add_work(before.faces);
   mesh.begin();
   bool kept = edit(nodes);
   if (kept) {
     topology::remove_doublets(mesh, nodes);
-    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings) && accept(before, worth_around(mesh, nodes));
+    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings);
+  }
+  if (kept) {
+    const Worth after = worth_around(mesh, nodes);
+    mesh.add_work(after.faces);
+    kept = accept(before, after);
   }
   kept ? mesh.commit() : mesh.rollback();
   return kept;

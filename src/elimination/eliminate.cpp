@@ -1,7 +1,6 @@
 #include "elimination/eliminate.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <queue>
 #include <span>
 
@@ -65,7 +64,7 @@ void pair_triangles(Mesh& mesh) {
 /// search finds a way round.
 class Search {
  public:
-  explicit Search(const Mesh& mesh) : mesh_(mesh) {}
+  explicit Search(Mesh& mesh) : mesh_(mesh) {}
 
   /// Half-edges to cross, one after another, from `start` to the (skip + 1)-nearest triangle. Empty when there
   /// is none. O(faces visited * log).
@@ -99,6 +98,7 @@ class Search {
       } while (h != first);
     }
     for (Index f : reached) came_by_[f] = kNone, cost_[f] = 0;
+    mesh_.add_work(reached.size());
     return path;
   }
 
@@ -124,7 +124,7 @@ class Search {
     return path;
   }
 
-  const Mesh& mesh_;
+  Mesh& mesh_;  // for its count of work
   std::vector<Index> came_by_, avoided_;
   std::vector<unsigned> cost_, penalty_;
 };
@@ -207,31 +207,8 @@ std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
   return faces;
 }
 
-/// Work that hard cases may cost, in sweeps over a chain's surroundings: what cannot be had for that is given up, so
-/// that the time stays bounded by the size of the region.
-class Budget {
- public:
-  explicit Budget(const Mesh& mesh) : sweeps_(1500 + 5 * std::int64_t(mesh.face_slots())) {}
-  bool is_spent() const { return sweeps_ <= 0; }
-  void spend(std::int64_t sweeps) { sweeps_ -= sweeps; }
-
- private:
-  std::int64_t sweeps_;
-};
-
-/// What a sweep around a path costs, 1 for a short chain of ordinary elements: every node of a fan sees the whole fan.
-int weight(const Mesh& mesh, const std::vector<Index>& path) {
-  constexpr std::size_t kOrdinary = 200;
-  std::size_t work = 0;
-  for (Index h : path) {
-    const std::size_t edges = mesh.valence(mesh.origin(h)) + mesh.valence(mesh.target(h));
-    work += edges * edges / 4;
-  }
-  return int(1 + std::min<std::size_t>(work / kOrdinary, 1000000));
-}
-
 /// One triangle to one partner, or part of the way, in a transaction.
-bool try_path(Mesh& mesh, SmoothingOptions smoothing, Budget& budget, const std::vector<Index>& path,
+bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& path,
               std::size_t crossings, const Effort& effort) {
   smoothing.untangling_sweeps *= effort.sweeps;
   std::vector<Index> nodes;
@@ -248,12 +225,11 @@ bool try_path(Mesh& mesh, SmoothingOptions smoothing, Budget& budget, const std:
     done = smoothing::smooth_near(mesh, smoothing, nodes, kRings);
   }
   done ? mesh.commit() : mesh.rollback();
-  if (!done) budget.spend(std::int64_t(smoothing.untangling_sweeps) * weight(mesh, path));
   return done;
 }
 
 /// Passes triangle f to a near partner at one go. Little room and little effort come first.
-bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search& search, Index f,
+bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget, Search& search, Index f,
                   std::span<const Effort> efforts) {
   bool done = false;
   for (const Effort& effort : efforts) {
@@ -261,7 +237,7 @@ bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget,
       // By turns the nearest partner by another way, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
       if (path.empty() || path.size() > kLongestChain) break;
-      done = try_path(mesh, smoothing, budget, path, path.size(), effort);
+      done = try_path(mesh, smoothing, path, path.size(), effort);
       if (!done) search.avoid(path);
     }
     search.forgive();
@@ -272,7 +248,7 @@ bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget,
 
 /// Walks triangle f to a partner, face by face: each step leaves a valid mesh, so a long way needs no
 /// untangling as a whole. A step that fails makes the walk go round.
-bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search& search, Index f) {
+bool walk(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget, Search& search, Index f) {
   constexpr int kSteps = 120, kMostFailures = 10;
   int failures = 0;
   constexpr Effort kStepEfforts[] = {{Cut::ear, Room::none, 1, 1},
@@ -286,7 +262,7 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search&
     if (path.size() > 2) path.resize(2);
     bool moved = false;
     for (const Effort& effort : kStepEfforts)
-      if ((moved = try_path(mesh, smoothing, budget, path, 1, effort))) break;
+      if ((moved = try_path(mesh, smoothing, path, 1, effort))) break;
     if (moved) {
       done = path.size() == 1;
       if (!done) f = mesh.face(path[1]);
@@ -303,7 +279,8 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, Budget& budget, Search&
 }
 
 /// Triangle f meets the nearest partner, whatever elements that makes: they are valid, and cleanup follows.
-bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, Search& search, Index f) {
+bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget, Search& search,
+                      Index f) {
   const std::vector<Index> path = search.path_to_triangle(f, 0);
   if (path.empty()) return false;
   std::vector<Index> nodes;
@@ -313,6 +290,7 @@ bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, Search& sea
     return false;
   }
   mesh.commit();
+  if (budget.is_spent()) return true;
   mesh.begin();
   smoothing::smooth_near(mesh, smoothing, nodes, kRings) ? mesh.commit() : mesh.rollback();
   return true;
@@ -320,10 +298,10 @@ bool pair_for_certain(Mesh& mesh, const SmoothingOptions& smoothing, Search& sea
 
 }  // namespace
 
-std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing, Means means) {
+std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing, Means means,
+                                const kernel::Budget& budget) {
   pair_triangles(mesh);
   Search search(mesh);
-  Budget budget(mesh);
   SmoothingOptions thorough = smoothing;
   thorough.iterations = std::max(smoothing.iterations, 20);
   for (bool progress = true; progress;) {
@@ -334,7 +312,8 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing, M
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
       const bool passed = pass_at_once(mesh, thorough, budget, search, f, kLight) ||
                           walk(mesh, thorough, budget, search, f) ||
-                          (means == Means::cutting && mesh.is_triangle(f) && pair_for_certain(mesh, thorough, search, f));
+                          (means == Means::cutting && mesh.is_triangle(f) &&
+                           pair_for_certain(mesh, thorough, budget, search, f));
       progress = progress || passed;
     }
   }

@@ -9,17 +9,18 @@
 namespace qmorph {
 namespace {
 
-SurfaceWork convert_patch(const Patch& patch, const Options& options) {
+SurfaceWork convert_patch(const Patch& patch, const Options& options, double allowed) {
   require_sound(patch);
-  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
+  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}, 0};
   const std::optional<Plane> plane = find_plane(patch);
-  if (!plane) return chart::convert_curved(patch, options);
+  if (!plane) return chart::convert_curved(patch, options, allowed);
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
-  return work_on_regions(surface, options,
-                         [&](std::size_t r, const Options& own, ConversionReport& report, Record& record) {
-                           return convert_region(surface.regions[r], surface.plane, own, report, record);
-                         });
+  return work_on_regions(
+      surface, options, allowed,
+      [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
+        return convert_region(surface.regions[r], surface.plane, own, most, report, record);
+      });
 }
 
 }  // namespace

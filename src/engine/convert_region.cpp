@@ -85,10 +85,14 @@ bool is_small(const Region& region, const Options& options) {
   return 2 * region.triangles.size() <= options.retry_triangles;
 }
 
+/// What an attempt costs in a region of no size.
+constexpr std::size_t kWorkPerAttempt = 200;
+
 class RegionConverter {
  public:
-  RegionConverter(const Region& region, const Plane& plane, const Options& options)
-      : region_(region), plane_(plane), options_(options), is_small_(is_small(region, options)) {
+  /// `allowed`: work that all attempts together may cost, more or less.
+  RegionConverter(const Region& region, const Plane& plane, const Options& options, double allowed)
+      : region_(region), plane_(plane), options_(options), is_small_(is_small(region, options)), allowed_(allowed) {
     start();
   }
 
@@ -97,17 +101,21 @@ class RegionConverter {
     if (!fault) {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
-      const bool may_try_again = size <= 2 * options_.retry_triangles;
-      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, true);
+      constexpr std::size_t kFewest = 3;  // with fewer a front has no choice
+      const bool may_try_again = size >= kFewest && size <= 2 * options_.retry_triangles;
+      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, allowed_, true);
       if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
       fault = first.fault;
       if (!may_try_again) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
-    Attempt paired = attempt(std::move(start_), options_, false);
+    Attempt paired = attempt(std::move(start_), options_, allowed_ - double(cost_), false);
     if (paired.fault) throw *fault;
     return paired;
   }
+
+  /// Of all attempts so far.
+  std::size_t cost() const { return cost_; }
 
  private:
   /// Makes the mesh that the front begins with.
@@ -132,15 +140,18 @@ class RegionConverter {
     Worth worth = judge(best.mesh);
     if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
     const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
-    // Usual are 20 to 1000 edits a triangle. Where a boundary is all spikes it may be ten times as many, and no try is better.
-    constexpr std::size_t kEditsPerTriangle = 500;
-    std::size_t edits = best.mesh.edits();
+    // Where a boundary is all spikes an attempt may cost ten times as much as usual, and no try is better.
+    constexpr std::size_t kWorkPerTriangle = 1000;
+    const std::size_t first = cost_;  // of the attempt before all tries, which are about as dear
     for (const Options& options : variants_of(options_)) {
       triangles += size;
       if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
-      if (edits > kEditsPerTriangle * most) break;
-      Attempt other = attempt(start_, options, true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
-      edits += other.mesh.edits();
+      if (cost_ > kWorkPerTriangle * most) break;
+      if (double(cost_ + first) > allowed_) {
+        ++best.report.budgets_spent;
+        break;
+      }
+      Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = judge(other.mesh);
       if (other.fault || others.sum() <= worth.sum()) continue;
       best = std::move(other);
@@ -149,18 +160,21 @@ class RegionConverter {
     return best;
   }
 
-  Attempt attempt(kernel::Mesh mesh, const Options& options, bool with_front,
+  Attempt attempt(kernel::Mesh mesh, const Options& options, double allowed, bool with_front,
                   std::size_t most_faces = std::size_t(-1)) {
     Attempt result{std::move(mesh)};
+    result.mesh.add_work(kWorkPerAttempt);
     Options final = options;
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
-    Pipeline pipeline(final, result.report, result.record, input_);
+    Pipeline pipeline(final, result.report, result.record, input_, allowed);
     if (with_front) pipeline.advance_front(result.mesh, plane_);
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = SurfaceError("too many elements");
+      cost_ += result.mesh.work();
       return result;
     }
     pipeline.finish(result.mesh);
+    cost_ += result.mesh.work();
     if (is_small_) raise_corners(result.mesh, options.smoothing);
     if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
@@ -171,8 +185,9 @@ class RegionConverter {
   std::optional<Attempt> attempt_in_parts() {
     if (!is_large(region_.triangles.size(), options_)) return {};
     Attempt result;
-    auto mesh = convert_in_parts(std::move(start_), input_, plane_, options_, result.report, result.record);
+    auto mesh = convert_in_parts(std::move(start_), input_, plane_, options_, allowed_, result.report, result.record);
     if (mesh) {
+      cost_ += mesh->work();
       result.mesh = std::move(*mesh);
       if (!find_fault(result.mesh, region_, plane_)) return result;
     }
@@ -197,18 +212,23 @@ class RegionConverter {
   const Plane& plane_;
   const Options& options_;
   const bool is_small_;  ///< so that a second try is allowed
-  kernel::Mesh start_;   ///< what the front begins with
-  kernel::Mesh input_;   ///< as it came, if stages are measured
+  const double allowed_;
+  std::size_t cost_ = 0;
+  kernel::Mesh start_;  ///< what the front begins with
+  kernel::Mesh input_;  ///< as it came, if stages are measured
 };
 
-/// The same with an ear set aside: the one triangle that an odd boundary leaves.
-std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options) {
-  if (region.boundary_sides % 2 == 0 || !is_small(region, options)) return {};
+/// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.
+std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
+                                           double allowed, std::size_t& cost) {
+  if (region.boundary_sides % 2 == 0 || !is_small(region, options) || allowed <= 0) return {};
   const std::optional<Ear> ear = sharpest_ear(region);
   if (!ear) return {};
   try {
     const Region rest = cut_off(region, *ear);
-    Attempt result = RegionConverter(rest, plane, options).run();
+    RegionConverter converter(rest, plane, options, allowed);
+    Attempt result = converter.run();
+    cost += converter.cost();
     put_back(result.mesh, *ear);
     ++result.report.leftover_triangles;  // the front leaves the ear, too
     for (auto& stage : result.record.stages)
@@ -221,12 +241,15 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
 
 }  // namespace
 
-kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, ConversionReport& report,
-                            Record& record) {
-  Attempt best = RegionConverter(region, plane, options).run();
+kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, double allowed,
+                            ConversionReport& report, Record& record) {
   const std::size_t size = region.triangles.size();
-  if (auto other = convert_without_ear(region, plane, options))
+  RegionConverter converter(region, plane, options, allowed);
+  Attempt best = converter.run();
+  std::size_t cost = converter.cost();
+  if (auto other = convert_without_ear(region, plane, options, allowed - double(cost), cost))
     if (worth_of(other->mesh, size).sum() > worth_of(best.mesh, size).sum()) best = std::move(*other);
+  best.mesh.add_work(cost - best.mesh.work());
   report = best.report;
   record = std::move(best.record);
   return std::move(best.mesh);

@@ -1,6 +1,9 @@
 #include "engine/overlap.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <vector>
 
 #include "geometry/predicates.hpp"
 #include "qmorph/error.hpp"
@@ -8,13 +11,12 @@
 namespace qmorph {
 namespace {
 
+/// From the end that lies more to the left; of a vertical one, from the lower end.
 struct Segment {
   Vec2 a, b;
-  double left() const { return std::min(a.x(), b.x()); }
-  double right() const { return std::max(a.x(), b.x()); }
-  double low() const { return std::min(a.y(), b.y()); }
-  double high() const { return std::max(a.y(), b.y()); }
 };
+
+bool is_before(const Vec2& p, const Vec2& q) { return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y(); }
 
 bool cross_properly(const Segment& s, const Segment& t) {
   return orientation(s.a, s.b, t.a) * orientation(s.a, s.b, t.b) < 0 &&
@@ -43,24 +45,82 @@ std::vector<Segment> outline_of(const std::vector<Region>& regions) {
     for (Index c = 0; c < region.open.size(); ++c) {
       if (!region.open[c]) continue;
       const auto& t = region.triangles[c / 3];
-      outline.push_back({region.points[t[c % 3]], region.points[t[(c + 1) % 3]]});
+      const Vec2 &p = region.points[t[c % 3]], &q = region.points[t[(c + 1) % 3]];
+      if (p == q) continue;
+      outline.push_back(is_before(p, q) ? Segment{p, q} : Segment{q, p});
     }
-  std::stable_sort(outline.begin(), outline.end(),
-                   [](const Segment& s, const Segment& t) { return s.left() < t.left(); });
   return outline;
 }
 
-void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane) {
-  std::vector<Segment> active;
-  for (const Segment& s : outline) {
-    std::erase_if(active, [&](const Segment& t) { return t.right() < s.left(); });
-    for (const Segment& t : active)
-      if (s.low() <= t.high() && t.low() <= s.high() && cross_properly(s, t))
-        throw SurfaceError("boundary or constraint edges cross near " + describe(plane.to_space(s.a)) +
-                               ", so triangles overlap; mesh the surface anew or repair it",
-                           {.kind = ErrorKind::overlap, .place = plane.to_space(s.a)});
-    active.push_back(s);
+/// A line sweeps from left to right over segments and keeps those that it meets in their order along it. Before two cross, they are
+/// neighbours there. [ShamosHoey76] Segments may share ends and coincide.
+class Sweep {
+ public:
+  explicit Sweep(const std::vector<Segment>& segments)
+      : segments_(segments), line_(IsBelow{&segments}), place_(segments.size(), line_.end()) {}
+
+  /// One of two segments that cross, or kNone.
+  Index run() {
+    struct Event {
+      Vec2 p;
+      Index segment;
+      bool begins;
+    };
+    std::vector<Event> events;
+    events.reserve(2 * segments_.size());
+    for (Index i = 0; i < segments_.size(); ++i)
+      events.push_back({segments_[i].a, i, true}), events.push_back({segments_[i].b, i, false});
+    std::sort(events.begin(), events.end(), [](const Event& e, const Event& f) {
+      if (e.p != f.p) return is_before(e.p, f.p);
+      return e.begins != f.begins ? f.begins : e.segment < f.segment;  // what ends at a node goes first
+    });
+    for (const Event& event : events) {
+      const Index found = event.begins ? begin(event.segment) : end(event.segment);
+      if (found != kNone) return found;
+    }
+    return kNone;
   }
+
+ private:
+  /// Of a segment that begins and one that the line meets; of equal ones the numbers decide.
+  struct IsBelow {
+    const std::vector<Segment>* segments;
+    bool operator()(Index i, Index j) const {
+      const Segment &s = (*segments)[i], &t = (*segments)[j];
+      if (is_before(s.a, t.a)) return side(s, t) > 0 || (side(s, t) == 0 && i < j);
+      return side(t, s) < 0 || (side(t, s) == 0 && i < j);
+    }
+    /// 1 if the other begins above, or on it and leads upwards.
+    static int side(const Segment& s, const Segment& other) {
+      const int begin = orientation(s.a, s.b, other.a);
+      return begin != 0 ? begin : orientation(s.a, s.b, other.b);
+    }
+  };
+  using Line = std::set<Index, IsBelow>;
+
+  Index begin(Index i) {
+    const auto at = place_[i] = line_.insert(i).first;
+    if (at != line_.begin() && cross(*std::prev(at), i)) return i;
+    return std::next(at) != line_.end() && cross(i, *std::next(at)) ? i : kNone;
+  }
+
+  Index end(Index i) {
+    const auto after = line_.erase(place_[i]);
+    return after != line_.end() && after != line_.begin() && cross(*std::prev(after), *after) ? *after : kNone;
+  }
+
+  bool cross(Index i, Index j) const { return cross_properly(segments_[i], segments_[j]); }
+
+  const std::vector<Segment>& segments_;
+  Line line_;
+  std::vector<Line::iterator> place_;
+};
+
+void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane) {
+  if (const Index i = Sweep(outline).run(); i != kNone)
+    throw SurfaceError("boundary or constraint edges cross near " + describe(plane.to_space(outline[i].a)) +
+                           ", so triangles overlap; mesh the surface anew or repair it",
+                       {.kind = ErrorKind::overlap, .place = plane.to_space(outline[i].a)});
 }
 
 }  // namespace

@@ -26,8 +26,18 @@ constexpr bool kChecksAlways = false;
 
 using Clock = std::chrono::steady_clock;
 
-Pipeline::Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start)
-    : options_(options), report_(report), record_(record), keeps_stages_(wants_stages(options)), start_(Clock::now()) {
+/// How much of the work that it may cost a region has spent at most when these are done; what one leaves is for those after it.
+constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
+                 kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
+
+Pipeline::Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start,
+                   double allowed)
+    : options_(options),
+      report_(report),
+      record_(record),
+      keeps_stages_(wants_stages(options)),
+      start_(Clock::now()),
+      allowed_(std::max(0.0, allowed)) {
   double nothing = 0;
   end_stage(Stage::input, start, nothing);
 }
@@ -59,6 +69,11 @@ void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane) {
   end_stage(Stage::front, mesh, report_.front_seconds);
 }
 
+kernel::Budget Pipeline::until(const kernel::Mesh& mesh, double share) const {
+  const auto most = std::size_t(share * allowed_);
+  return {mesh, most - std::min(most, mesh.work())};
+}
+
 void Pipeline::finish(kernel::Mesh& mesh) {
   clean(mesh);
   polish(mesh);
@@ -66,18 +81,23 @@ void Pipeline::finish(kernel::Mesh& mesh) {
 
 void Pipeline::clean(kernel::Mesh& mesh) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
-  elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving);
+  const kernel::Budget elimination = until(mesh, kElimination);
+  elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving, elimination);
+  note(elimination);
   end_stage(Stage::elimination, mesh, report_.elimination_seconds);
   progress("smoothing", 0.5);
   SmoothingOptions rough = options_.smoothing;  // good enough for cleanup to judge shapes
   rough.iterations = std::min(rough.iterations, 2);
-  smoothing::smooth(mesh, rough);
+  smoothing::smooth(mesh, rough, until(mesh, kRoughSmoothing));
   end_stage(Stage::smoothing, mesh, report_.smoothing_seconds);
   progress("cleanup", 0.55);
-  cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing);
-  cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing);
-  cleanup::clean_up(mesh, options_.smoothing);
-  cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing);
+  const kernel::Budget boundary = until(mesh, kBoundary), cleanup = until(mesh, kCleanup);
+  cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing, boundary);
+  cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing, boundary);
+  note(boundary);
+  cleanup::clean_up(mesh, options_.smoothing, cleanup);
+  cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing, cleanup);
+  note(cleanup);
   end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
   progress("cleanup", 0.75);
 }
@@ -101,23 +121,29 @@ void Pipeline::clean_near(kernel::Mesh& mesh, const std::vector<Index>& interfac
   sort_unique(nodes);
   std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
   smoothing::smooth_near(mesh, options_.smoothing, nodes, 0);
-  cleanup::clean_up_near(mesh, options_.smoothing, nodes);
+  cleanup::clean_up_near(mesh, options_.smoothing, nodes, until(mesh, kCleanup));
   end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
 }
 
 void Pipeline::polish(kernel::Mesh& mesh) {
   progress("smoothing", 0.8);
-  smoothing::smooth(mesh, options_.smoothing);
+  smoothing::smooth(mesh, options_.smoothing, until(mesh, kFinalSmoothing));
   end_stage(Stage::final_smoothing, mesh, report_.smoothing_seconds);
-  cleanup::repair(mesh, options_.smoothing);
-  cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing);
-  cleanup::replace_poor_cavities(mesh, options_.smoothing);
+  const kernel::Budget repair = until(mesh, kRepair), shape = until(mesh, kShape), cavities = until(mesh, kPoorCavities);
+  cleanup::repair(mesh, options_.smoothing, repair);
+  note(repair);
+  cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing, shape);
+  note(shape);
+  cleanup::replace_poor_cavities(mesh, options_.smoothing, cavities);
+  note(cavities);
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
-    elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting);
-    cleanup::clean_up(mesh, options_.smoothing);
-    smoothing::smooth(mesh, options_.smoothing);
-    cleanup::repair(mesh, options_.smoothing);
+    const kernel::Budget last = until(mesh, 1);
+    elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::cutting, last);
+    cleanup::clean_up(mesh, options_.smoothing, last);
+    smoothing::smooth(mesh, options_.smoothing, last);
+    cleanup::repair(mesh, options_.smoothing, last);
+    note(last);
   }
   if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
     smoothing::raise_worst_corners(mesh, options_.smoothing);

@@ -7,6 +7,7 @@
 
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
+#include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/error.hpp"
 #include "qmorph/options.hpp"
@@ -16,8 +17,9 @@ namespace qmorph {
 
 class Pipeline {
  public:
-  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it.
-  Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start);
+  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it. What makes the mesh better
+  /// ends when all together has cost as much work as is allowed (allowance.hpp).
+  Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start, double allowed);
 
   /// Triangles to quads, as far as the front comes. `plane` is for the observer. \throws Cancelled, as all stages do
   void advance_front(kernel::Mesh& mesh, const Plane& plane);
@@ -31,6 +33,9 @@ class Pipeline {
   void polish(kernel::Mesh& mesh);
 
  private:
+  /// Until all stages together have cost this share of what they may.
+  kernel::Budget until(const kernel::Mesh& mesh, double share) const;
+  void note(const kernel::Budget& budget) { report_.budgets_spent += budget.is_spent(); }
   void remove_doublet(kernel::Mesh& mesh, Index v) const;
   /// `share` of all stages together; how they compare was measured.
   void progress(std::string_view stage, double share) const;
@@ -42,6 +47,7 @@ class Pipeline {
   Record& record_;
   const bool keeps_stages_;
   std::chrono::steady_clock::time_point start_;
+  const double allowed_;
 };
 
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree);

@@ -61,8 +61,9 @@ class Sides {
     row_.reserve(patch.points.size());
     for (Index t : order) node_.insert(node_.end(), patch.triangles[t].begin(), patch.triangles[t].end());
     for (Index& v : node_) {
-      if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v);
+      if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v), corners_.push_back(0);
       v = number_[v];
+      ++corners_[v];
     }
   }
 
@@ -95,19 +96,26 @@ class Sides {
     return many;
   }
 
-  /// The side between a and b, in either direction, that came first. O(valence).
+  /// Of two nodes that with fewer corners first: chains are short, then, even where fans meet.
+  std::pair<Index, Index> in_order(Index a, Index b) const {
+    const bool is_a = corners_[a] != corners_[b] ? corners_[a] < corners_[b] : a < b;
+    return is_a ? std::pair(a, b) : std::pair(b, a);
+  }
+
+  /// The side between a and b, in either direction, that came first.
   Index find(Index a, Index b) const {
-    const auto [lower, upper] = std::minmax(a, b);
-    for (Index e = first_[lower]; e != kNone; e = edges_[e].following)
-      if (edges_[e].upper == upper) return edges_[e].side;
+    const auto [from, to] = in_order(a, b);
+    for (Index e = first_[from]; e != kNone; e = edges_[e].following)
+      if (edges_[e].to == to) return edges_[e].side;
     return kNone;
   }
 
   void add(Index c, const Patch& patch) {
     const Index a = node_[c], b = node_[next(c)], other = find(a, b);
     if (other == kNone) {
-      Index& first = first_[std::min(a, b)];
-      edges_.push_back({std::max(a, b), c, first});
+      const auto [from, to] = in_order(a, b);
+      Index& first = first_[from];
+      edges_.push_back({to, c, first});
       first = Index(edges_.size() - 1);
       return;
     }
@@ -142,11 +150,12 @@ class Sides {
   }
 
   struct Edge {
-    Index upper, side, following;
+    Index to, side, following;
   };
   std::vector<Index> number_, row_;  ///< nodes of rows of Patch::points, and back
   std::vector<Index> node_;          ///< by corner
-  std::vector<Index> first_;         ///< by node: its first edge in a chain of those of which it is the lower node
+  std::vector<Index> corners_;       ///< by node: how many triangles meet there
+  std::vector<Index> first_;         ///< by node: its first edge in a chain of those that are kept there
   std::vector<Edge> edges_;
   std::vector<Index> opposite_;  ///< by side
 };

@@ -16,6 +16,7 @@ void ConversionReport::add(const ConversionReport& other) {
   worse_regions += other.worse_regions;
   front_quads += other.front_quads;
   leftover_triangles += other.leftover_triangles;
+  budgets_spent += other.budgets_spent;
   front_seconds += other.front_seconds;
   elimination_seconds += other.elimination_seconds;
   cleanup_seconds += other.cleanup_seconds;

@@ -37,7 +37,11 @@ void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<I
   faces_.reserve(with_room(faces.size()));
   half_edges_.reserve(with_room(faces.size() * N));
 
-  // Edges that wait for their other half, in a chain from their lower vertex: there are never many.
+  // Edges that wait for their other half, in a chain from that of their vertices which has fewer corners: chains are short, then,
+  // even where fans meet.
+  std::vector<Index> corners(vertices_.size(), 0);
+  for (const auto& face : faces)
+    for (Index i = 0; i < corners_of(face); ++i) ++corners[face[i]];
   std::vector<Index> first(vertices_.size(), kNone), following;  // following: by edge
   following.reserve(half_edges_.capacity() / 2);
   for (Index f = 0; f < faces.size(); ++f) {
@@ -46,7 +50,8 @@ void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<I
     for (Index i = 0; i < degree; ++i) {
       const Index a = faces[f][i], b = faces[f][(i + 1) % degree];
       const bool stays_open = is_open(N * f + i);
-      Index* waiting = &first[std::min(a, b)];
+      const bool is_a = corners[a] != corners[b] ? corners[a] < corners[b] : a < b;
+      Index* waiting = &first[is_a ? a : b];
       while (!stays_open && *waiting != kNone && !(origin(*waiting) == b && target(*waiting) == a))
         waiting = &following[*waiting / 2];
       if (!stays_open && *waiting != kNone) {
@@ -83,7 +88,7 @@ Index Mesh::valence(Index v) const {
   do {
     ++count;
     h = rotate_ccw(h);
-  } while (h != out(v));
+  } while (h != out(v) && count < kManyEdges);
   return count;
 }
 

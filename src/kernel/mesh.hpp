@@ -74,7 +74,9 @@ class Mesh {
       h = next(h);
     } while (h != start);
   }
+  /// Edges at v, or `kManyEdges` for so many and more: those who ask want to tell few, and walking round a fan each time is quadratic.
   Index valence(Index v) const;
+  static constexpr Index kManyEdges = 64;
   /// Of all vertices, by vertex; 0 for dead ones.
   std::vector<Index> valences() const;
   /// The half-edge from a to b, or kNone. O(valence).
@@ -142,8 +144,10 @@ class Mesh {
   void commit();
   void rollback();
   bool in_transaction() const { return recording_; }
-  /// Values set in transactions so far, whether they were kept or not: a measure of work that is the same on every machine.
-  std::size_t edits() const { return edits_; }
+  /// Values set in transactions so far, whether they were kept or not, and elements that somebody says he has looked at: a measure
+  /// of work that is the same on every machine.
+  std::size_t work() const { return work_; }
+  void add_work(std::size_t elements) { work_ += elements; }
   /// Calls visit(index) for what the last transaction edited, some more than once, some dead by now. Until the next begin().
   template <class Visit>
   void for_edited_vertices(const Visit& visit) const {
@@ -218,7 +222,7 @@ class Mesh {
     std::vector<Index> origins;  ///< of half-edges inside
   };
   Scratch scratch_;
-  std::size_t edits_ = 0;
+  std::size_t work_ = 0;
   bool recording_ = false;
   bool checks_commits_ = false;
 };

@@ -86,13 +86,13 @@ void Mesh::begin_pool(Pool<T>& pool, const std::vector<T>& values) {
 
 template <class T>
 void Mesh::commit_pool(Pool<T>& pool) {
-  edits_ += pool.old_values.size();
+  work_ += pool.old_values.size();
   pool.free.insert(pool.free.end(), pool.released.begin(), pool.released.end());
 }
 
 template <class T>
 void Mesh::rollback_pool(Pool<T>& pool, std::vector<T>& values) {
-  edits_ += pool.old_values.size();
+  work_ += pool.old_values.size();
   for (auto it = pool.old_values.rbegin(); it != pool.old_values.rend(); ++it)
     values[it->first] = it->second;
   values.resize(pool.size_at_begin);

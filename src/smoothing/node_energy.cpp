@@ -9,24 +9,6 @@
 namespace qmorph::smoothing {
 namespace {
 
-/// Calls corners(q, after_q, before_r, r) for each element around v, which runs v, q, ..., r: its corners at v, q and r depend
-/// on v. Stops when that returns false.
-template <class Corners>
-bool for_each_element(const kernel::Mesh& mesh, Index v, const Corners& corners) {
-  const Index start = mesh.out(v);
-  Index h = start;
-  do {
-    if (mesh.face(h) != kNone) {
-      const Index to_v = mesh.prev(h);
-      if (!corners(mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))),
-                   mesh.point(mesh.origin(mesh.prev(to_v))), mesh.point(mesh.origin(to_v))))
-        return false;
-    }
-    h = mesh.rotate_ccw(h);
-  } while (h != start);
-  return true;
-}
-
 /// mu is at least 1 / sine: a corner whose mu is larger than this may be straight.
 constexpr double kMostMu = 0.5 / kStraightSine;
 
@@ -105,45 +87,6 @@ QMORPH_WIDE void add_value(Energy& energy, const FourElements& elements, std::si
   energy.value += sum_of(sum.value, count);
 }
 
-/// How a corner's area J enters the regularised energy: as h(J), with the first two derivatives. [Escobar03]
-struct Regularised {
-  double delta;
-  double root(double j) const { return std::sqrt(j * j + 4 * delta * delta); }
-  double h(double j) const {
-    // For negative j the sum cancels: its conjugate does not.
-    return j >= 0 ? 0.5 * (j + root(j)) : 2 * delta * delta / (root(j) - j);
-  }
-  double dh(double j) const { return h(j) / root(j); }
-  double ddh(double j) const {
-    const double r = root(j);
-    return 2 * delta * delta / (r * r * r);
-  }
-};
-
-/// Adds mu^2 of the corner with edges a, b. `dn` and `dj` are the gradients of |a|^2 + |b|^2 and of a x b with
-/// respect to the node, `n2` the diagonal of the (constant) second derivative of the first.
-void add_corner(Energy& energy, const Regularised& area, const Vec2& a, const Vec2& b, const Vec2& dn, double n2,
-                const Vec2& dj) {
-  const double j = cross(a, b), n = a.squaredNorm() + b.squaredNorm();
-  const double h = area.h(j), dh = area.dh(j), inverse = 0.5 / h, mu = n * inverse;
-  const Vec2 g = inverse * (dn - (2 * mu * dh) * dj);
-  // Second derivative of mu: diagonal + mixed (dn dj^T + dj dn^T) + outer dj dj^T; then that of mu^2.
-  const double diagonal = n2 * inverse, mixed = -2 * dh * inverse * inverse,
-               outer = 4 * mu * inverse * inverse * (2 * dh * dh - h * area.ddh(j));
-  energy.value += mu * mu;
-  energy.gradient += (2 * mu) * g;
-  energy.xx += 2 * (mu * (diagonal + 2 * mixed * dn.x() * dj.x() + outer * dj.x() * dj.x()) + g.x() * g.x());
-  energy.yy += 2 * (mu * (diagonal + 2 * mixed * dn.y() * dj.y() + outer * dj.y() * dj.y()) + g.y() * g.y());
-  energy.xy += 2 * (mu * (mixed * (dn.x() * dj.y() + dn.y() * dj.x()) + outer * dj.x() * dj.y()) + g.x() * g.y());
-}
-
-double squared_mu(const Regularised& area, const Vec2& a, const Vec2& b) {
-  const double mu = (a.squaredNorm() + b.squaredNorm()) / (2 * area.h(cross(a, b)));
-  return mu * mu;
-}
-
-Vec2 clockwise(const Vec2& v) { return {v.y(), -v.x()}; }
-
 }  // namespace
 
 [[gnu::always_inline]] inline void Star::put(std::size_t place, const Vec2& q, const Vec2& after_q, const Vec2& before_r,
@@ -182,6 +125,7 @@ void Star::set(std::span<const StarElement> elements) {
 template <class Add>
 Energy Star::sum(const Vec2& p, const Add& add) const {
   Energy energy;
+  work_ += count_;
   for (std::size_t i = 0; i < count_; i += 4) add(energy, fours_[i / 4], count_ - i, p);
   energy.finite = energy.finite && energy.value < kMostMu * kMostMu;  // and so is each square
   return energy;
@@ -201,32 +145,6 @@ Energy energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p) {
   Star star;
   star.look_around(mesh, v);
   return star.energy(p);
-}
-
-Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta) {
-  const Regularised area{delta};
-  const Vec2& p = mesh.point(v);
-  Energy energy;
-  for_each_element(mesh, v, [&](const Vec2& q, const Vec2& after_q, const Vec2& before_r, const Vec2& r) {
-    const Vec2 e1 = q - p, e2 = r - p;
-    add_corner(energy, area, e1, e2, -2 * (e1 + e2), 4, clockwise(q - r));
-    // At q: edges to the next corner and back to v; v is the end of the second. At r: v is the end of the first.
-    add_corner(energy, area, after_q - q, -e1, -2 * e1, 2, -clockwise(after_q - q));
-    add_corner(energy, area, -e2, before_r - r, -2 * e2, 2, clockwise(before_r - r));
-    return true;
-  });
-  return energy;
-}
-
-double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta) {
-  const Regularised area{delta};
-  double value = 0;
-  for_each_element(mesh, v, [&](const Vec2& q, const Vec2& after_q, const Vec2& before_r, const Vec2& r) {
-    value +=
-        squared_mu(area, q - p, r - p) + squared_mu(area, after_q - q, p - q) + squared_mu(area, p - r, before_r - r);
-    return true;
-  });
-  return value;
 }
 
 }  // namespace qmorph::smoothing

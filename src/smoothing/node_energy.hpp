@@ -22,12 +22,6 @@ struct Energy {
   bool is_convex() const { return xx > 0 && xx * yy - xy * xy > 0; }
 };
 
-/// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a
-/// corner, which is positive everywhere and tends to J as delta goes to zero. [Escobar03]
-/// `delta` is an area.
-Energy regularised_energy_around(const kernel::Mesh& mesh, Index v, double delta);
-double regularised_energy_at(const kernel::Mesh& mesh, Index v, const Vec2& p, double delta);
-
 /// Four of the elements around a node v, one in each lane. An element runs v, q, after_q, r or, if it is a triangle, v, q, r: then
 /// after_q is r and before_r is q.
 struct FourElements {
@@ -53,6 +47,18 @@ class Star {
   Energy energy_with_derivatives(const Vec2& p) const;
   /// The same, value only.
   Energy energy(const Vec2& p) const;
+  /// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a corner, which is positive
+  /// everywhere and tends to J as delta goes to zero. [Escobar03] `delta` is an area.
+  Energy regularised_with_derivatives(const Vec2& p, double delta) const;
+  /// The same, value only.
+  double regularised(const Vec2& p, double delta) const;
+
+  /// Of the edges at the node, if that is at p and inside.
+  double mean_edge(const Vec2& p) const;
+  std::size_t elements() const { return count_; }
+  /// Elements looked at so far, at all nodes and places.
+  std::size_t work() const { return work_; }
+  void add_work(std::size_t elements) { work_ += elements; }
   /// Calls visit(u) for the nodes of the elements around, some more than once. Precondition: the node is inside.
   template <class Visit>
   void for_each_neighbour(const Visit& visit) const {
@@ -67,6 +73,7 @@ class Star {
 
   std::vector<FourElements> fours_;  ///< kept to avoid allocations
   std::size_t count_ = 0;            ///< elements
+  mutable std::size_t work_ = 0;
 };
 
 /// As Star's, for one place.

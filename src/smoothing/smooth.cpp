@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "geometry/z_curve.hpp"
 #include "kernel/sort_unique.hpp"
@@ -52,25 +53,30 @@ Vec2 direction(const Energy& energy, double edge) {
 bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   constexpr int kHalvings = 6;
   constexpr double kFirstDelta = 0.5, kFade = 0.8, kLeastDelta = 1e-8;
+  Star star;
   if (has_immovable_fault(mesh, nodes)) return false;
   double share_of_area = kFirstDelta;
+  bool valid = false;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     share_of_area = std::max(kLeastDelta, kFade * share_of_area);
     for (Index v : nodes) {
-      const double delta = share_of_area * std::pow(mesh.mean_edge(v), 2);
-      const Energy energy = regularised_energy_around(mesh, v, delta);
-      const Vec2 start = mesh.point(v), step = direction(energy, mesh.mean_edge(v));
+      star.look_around(mesh, v);
+      const Vec2 start = mesh.point(v);
+      const double edge = star.mean_edge(start), delta = share_of_area * std::pow(edge, 2);
+      const Energy energy = star.regularised_with_derivatives(start, delta);
+      const Vec2 step = direction(energy, edge);
       double share = 1;
       for (int i = 0; i < kHalvings; ++i, share /= 2) {
         const Vec2 p = start + share * step;
-        if (!(regularised_energy_at(mesh, v, p, delta) < energy.value)) continue;
+        if (!(star.regularised(p, delta) < energy.value)) continue;
         mesh.set_point(v, p);
         break;
       }
     }
-    if (std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); })) return true;
+    if ((valid = std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); }))) break;
   }
-  return false;
+  mesh.add_work(star.work());
+  return valid;
 }
 
 /// As below; `star` is scratch space.
@@ -84,6 +90,7 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
     const Vec2 before = mesh.point(v);
     const bool was_valid = mesh.is_valid_star(v);
     untangle_node(mesh, v);
+    star.add_work(star.elements() * star.elements() * star.elements());  // about as long as so many elements
     if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
     return (mesh.point(v) - before).norm() / edge;
   }
@@ -123,18 +130,16 @@ class Passes {
   Passes(kernel::Mesh& mesh, const SmoothingOptions& options)
       : mesh_(mesh), options_(options), active_(mesh.vertex_slots(), 1) {}
 
-  void run(const std::vector<Index>& nodes) {
+  void run(const std::vector<Index>& nodes, const kernel::Budget& budget) {
     cut_into_blocks(nodes);
-    for (int pass = 0; pass < options_.iterations; ++pass) {
-      std::vector<char> moved(blocks_.size());
-      parallel::for_each_index(blocks_.size(), [&](std::size_t b) { moved[b] = relax(blocks_[b]); });
-      const bool any_between = relax(between_);
-      if (!any_between && std::count(moved.begin(), moved.end(), 1) == 0) break;
-    }
+    for (int pass = 0; pass < options_.iterations; ++pass)
+      if (for_blocks([&](const std::vector<Index>& block, std::size_t& work) { return relax(block, work); }) == 0) break;
     wake_at_poor_faces();
     for (int pass = 0; pass < kRepairPasses; ++pass) {
-      parallel::for_each_index(blocks_.size(), [&](std::size_t b) { raise_poor(blocks_[b]); });
-      raise_poor(between_);
+      const double most_each = double(budget.left()) / double(kRepairPasses - pass) / double(nodes.size());
+      for_blocks([&](const std::vector<Index>& block, std::size_t& work) {
+        return raise_poor(block, most_each * double(block.size()), work);
+      });
     }
   }
 
@@ -171,8 +176,20 @@ class Passes {
     return is_between;
   }
 
+  /// Calls visit(block, work), which returns whether a node moved, for all blocks side by side, then for the nodes between.
+  /// \return how many said so
+  template <class Visit>
+  int for_blocks(const Visit& visit) {
+    std::vector<std::size_t> work(blocks_.size() + 1, 0);
+    std::vector<char> moved(blocks_.size() + 1);
+    parallel::for_each_index(blocks_.size(), [&](std::size_t b) { moved[b] = visit(blocks_[b], work[b]); });
+    moved.back() = visit(between_, work.back());
+    mesh_.add_work(std::accumulate(work.begin(), work.end(), std::size_t(0)));
+    return int(std::count(moved.begin(), moved.end(), 1));
+  }
+
   /// True if a node moved.
-  bool relax(const std::vector<Index>& nodes) {
+  bool relax(const std::vector<Index>& nodes, std::size_t& work) {
     bool any = false;
     Star star;
     for (Index v : nodes) {
@@ -184,15 +201,39 @@ class Passes {
       wake(v);
       star.for_each_neighbour([&](Index u) { wake(u); });
     }
+    work += star.work();
     return any;
   }
 
-  void raise_poor(const std::vector<Index>& nodes) {
+  /// True if a node moved.
+  bool raise_poor(const std::vector<Index>& nodes, double most, std::size_t& work) {
+    constexpr double kUsualWork = 500;  // of a node
+    const auto count = std::count_if(nodes.begin(), nodes.end(), [&](Index v) { return active_[v]; });
+    if (kUsualWork * double(count) > most) return raise_in_order(worst_first(nodes), most, work);
+    return raise_in_order(nodes, most, work);
+  }
+
+  bool raise_in_order(const std::vector<Index>& nodes, double most, std::size_t& work) {
+    bool any = false;
     for (Index v : nodes) {
       if (!active_[v]) continue;
+      if (double(work) > most) break;
       active_[v] = 0;
-      if (!mesh_.is_star_above(v, options_.target_quality) && raise_smallest_sine(mesh_, v)) wake_around(v);
+      if (mesh_.is_star_above(v, options_.target_quality) || !raise_smallest_sine(mesh_, v, work)) continue;
+      any = true;
+      wake_around(v);
     }
+    return any;
+  }
+
+  std::vector<Index> worst_first(const std::vector<Index>& nodes) const {
+    std::vector<std::pair<double, Index>> sines;
+    for (Index v : nodes)
+      if (active_[v]) sines.emplace_back(mesh_.smallest_sine_around(v), v);
+    std::sort(sines.begin(), sines.end());
+    std::vector<Index> sorted;
+    for (const auto& [sine, v] : sines) sorted.push_back(v);
+    return sorted;
   }
 
   /// Activates the nodes of poor faces alone: each face is looked at once, not from all its nodes.
@@ -233,14 +274,14 @@ double relax_node(kernel::Mesh& mesh, Index v) {
   return relax_node(mesh, v, star);
 }
 
-void smooth(kernel::Mesh& mesh, const SmoothingOptions& options) {
+void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget) {
   std::vector<Index> nodes;
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v) && mesh.is_free(v)) nodes.push_back(v);
   if (options.method == SmoothingMethod::thesis)
     smooth_by_thesis(mesh, options.thesis, nodes);
   else
-    Passes(mesh, options).run(nodes);
+    Passes(mesh, options).run(nodes, budget);
 }
 
 bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings) {
@@ -261,6 +302,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   }
   std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });
   const std::vector<Index> faces = topology::faces_around(mesh, around);
+  mesh.add_work(faces.size());
   if (!std::all_of(faces.begin(), faces.end(), [&](Index f) { return mesh.is_valid_face(f); }))
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   Star star;
@@ -269,9 +311,11 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     for (Index v : around) moved = std::max(moved, relax_node(mesh, v, star));
     if (moved < options.move_tolerance) break;
   }
+  std::size_t work = star.work();
   if (!std::all_of(faces.begin(), faces.end(), [&](Index f) { return mesh.is_above(f, options.target_quality); }))
     for (Index v : around)
-      if (!mesh.is_star_above(v, options.target_quality)) raise_smallest_sine(mesh, v);
+      if (!mesh.is_star_above(v, options.target_quality)) raise_smallest_sine(mesh, v, work);
+  mesh.add_work(work);
   return std::none_of(around.begin(), around.end(), [&](Index v) { return is_on_neighbour(mesh, v); }) &&
          std::all_of(nodes.begin(), nodes.end(), [&](Index v) { return mesh.is_valid_star(v); });
 }

@@ -42,9 +42,13 @@ std::vector<CornerArea> corner_areas(const kernel::Mesh& mesh, Index v) {
   return areas;
 }
 
-double smallest(const std::vector<CornerArea>& areas, const Vec2& x) {
+/// The smallest area at x, or any that is not above `floor`.
+double smallest(const std::vector<CornerArea>& areas, const Vec2& x, double floor) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& a : areas) least = std::min(least, a.at(x));
+  for (const auto& a : areas) {
+    least = std::min(least, a.at(x));
+    if (!(least > floor)) break;
+  }
   return least;
 }
 
@@ -59,7 +63,7 @@ bool untangle_node(kernel::Mesh& mesh, Index v) {
   // The optimum of three unknowns (x and the smallest area) is a vertex: three areas are equal there. With a
   // dozen or two of corners, trying all triples is simplest.
   Vec2 best = Vec2::Zero();
-  double best_area = smallest(areas, best);
+  double best_area = smallest(areas, best, -std::numeric_limits<double>::infinity());
   const double before = best_area;
   for (std::size_t i = 0; i < areas.size(); ++i)
     for (std::size_t j = i + 1; j < areas.size(); ++j)
@@ -69,7 +73,7 @@ bool untangle_node(kernel::Mesh& mesh, Index v) {
         if (determinant == 0) continue;
         const double p = areas[j].offset - areas[i].offset, q = areas[k].offset - areas[i].offset;
         const Vec2 x((p * b.y() - q * a.y()) / determinant, (a.x() * q - b.x() * p) / determinant);
-        const double area = smallest(areas, x);
+        const double area = smallest(areas, x, best_area);
         if (area > best_area) best = x, best_area = area;
       }
   if (!(best_area > before)) return false;
@@ -90,59 +94,93 @@ double guarded_sine(const Vec2& at, const Vec2& to_next, const Vec2& to_previous
   return std::min(sine, kLengthGuard * 2 * area / (aa + bb));
 }
 
-double guarded_sine_around(const kernel::Mesh& mesh, Index v) {
-  double least = 1;
-  Index h = mesh.out(v);
-  do {
-    if (mesh.face(h) != kNone) {
-      const Index start = h;
-      Index e = h;
-      do {
-        least = std::min(least, guarded_sine(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)),
-                                             mesh.point(mesh.origin(mesh.prev(e)))));
-        e = mesh.next(e);
-      } while (e != start);
+/// The corners of the faces around a node, looked at once, so that trying places costs no walk through the mesh.
+class Corners {
+ public:
+  Corners(const kernel::Mesh& mesh, Index v) {
+    Index h = mesh.out(v);
+    do {
+      if (mesh.face(h) != kNone) add_face(mesh, h);
+      h = mesh.rotate_ccw(h);
+    } while (h != mesh.out(v));
+  }
+
+  /// Elements looked at so far.
+  std::size_t work() const { return work_; }
+
+  /// The smallest guarded sine with the node at p, or any that is not above `floor`.
+  double smallest(const Vec2& p, double floor) {
+    double least = still_;
+    for (const Element& e : elements_) {
+      ++work_;
+      if (!(least > floor)) break;
+      const double at_node = guarded_sine(p, e.q, e.r), at_q = guarded_sine(e.q, e.after_q, p),
+                   at_r = guarded_sine(e.r, p, e.before_r);
+      least = std::min(std::min(least, at_node), std::min(at_q, at_r));
     }
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
-  return least;
-}
+    return least;
+  }
 
-}  // namespace
+ private:
+  /// A face that runs v, q, after_q, ..., before_r, r.
+  struct Element {
+    Vec2 q, after_q, before_r, r;
+  };
 
-bool raise_smallest_sine(kernel::Mesh& mesh, Index v) {
-  if (!mesh.is_free(v)) return false;
-  constexpr int kDirections = 8, kShrinkings = 6, kMostRounds = 40;
-  constexpr double kFirstStep = 0.25, kLeastGain = 1e-6;
+  void add_face(const kernel::Mesh& mesh, Index h) {
+    const Index to_v = mesh.prev(h), last = mesh.prev(to_v);
+    elements_.push_back({mesh.point(mesh.target(h)), mesh.point(mesh.target(mesh.next(h))),
+                         mesh.point(mesh.origin(last)), mesh.point(mesh.origin(to_v))});
+    for (Index e = mesh.next(mesh.next(h)); e != to_v; e = mesh.next(e))
+      still_ = std::min(still_, guarded_sine(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)),
+                                             mesh.point(mesh.origin(mesh.prev(e)))));
+  }
+
+  std::vector<Element> elements_;
+  double still_ = 1;  ///< of the corners that do not depend on the node
+  std::size_t work_ = 0;
+};
+
+double shortest_edge(const kernel::Mesh& mesh, Index v) {
   double shortest = std::numeric_limits<double>::infinity();
   Index h = mesh.out(v);
   do {
     shortest = std::min(shortest, mesh.length(h));
     h = mesh.rotate_ccw(h);
   } while (h != mesh.out(v));
+  return shortest;
+}
 
+}  // namespace
+
+bool raise_smallest_sine(kernel::Mesh& mesh, Index v, std::size_t& work) {
+  if (!mesh.is_free(v)) return false;
+  constexpr int kShrinkings = 6, kMostRounds = 40;
+  constexpr double kFirstStep = 0.25, kLeastGain = 1e-6, kDiagonal = 0.70710678118654752;
+  static constexpr double kCompass[][2] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
+                                           {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
+  Corners corners(mesh, v);
   const Vec2 start = mesh.point(v);
-  const bool was_valid = mesh.is_valid_star(v);
   Vec2 best = start;
-  double best_sine = guarded_sine_around(mesh, v);
-  double step = kFirstStep * shortest;
-  constexpr double kDiagonal = 0.70710678118654752;
-  static constexpr double kCompass[kDirections][2] = {
-      {1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal},
-      {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
+  double best_sine = corners.smallest(best, -std::numeric_limits<double>::infinity());
+  double step = kFirstStep * shortest_edge(mesh, v);
   for (int shrinking = 0, rounds = 0; shrinking < kShrinkings && rounds < kMostRounds; ++rounds) {
     const Vec2 centre = best;
     for (const auto& d : kCompass) {
-      mesh.set_point(v, centre + step * Vec2(d[0], d[1]));
-      const double sine = guarded_sine_around(mesh, v);
-      if (sine > best_sine + kLeastGain) best = mesh.point(v), best_sine = sine;
+      const Vec2 p = centre + step * Vec2(d[0], d[1]);
+      const double sine = corners.smallest(p, best_sine + kLeastGain);
+      if (sine > best_sine + kLeastGain) best = p, best_sine = sine;
     }
     if (best == centre) step /= 2, ++shrinking;
   }
-  mesh.set_point(v, best);
+  work += corners.work();
+  if (best == start) return false;
   // The guard on lengths may have paid for a rise with a corner's sine.
-  if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, best = start);
-  return best != start;
+  const bool was_valid = mesh.is_valid_star(v);
+  mesh.set_point(v, best);
+  if (!was_valid || mesh.is_valid_star(v)) return true;
+  mesh.set_point(v, start);
+  return false;
 }
 
 bool has_immovable_fault(const kernel::Mesh& mesh, std::span<const Index> free_nodes) {

@@ -12,8 +12,8 @@ namespace qmorph::smoothing {
 bool untangle_node(kernel::Mesh& mesh, Index v);
 
 /// Moves v to raise the smallest corner sine around it (its neighbours' corners included); compass search.
-/// Never makes an element invalid. Returns true if v moved.
-bool raise_smallest_sine(kernel::Mesh& mesh, Index v);
+/// Never makes an element invalid. Returns true if v moved. Adds the elements that it looked at to `work`.
+bool raise_smallest_sine(kernel::Mesh& mesh, Index v, std::size_t& work);
 
 /// A face around one of the `free_nodes` has a corner that is not convex and whose three nodes are all elsewhere: no
 /// movement of `free_nodes` makes it valid. `free_nodes` is sorted.

@@ -8,6 +8,7 @@
 
 #include "beside_gmsh.hpp"
 #include "engine_alone.hpp"
+#include "hard_table.hpp"
 #include "triangulations.hpp"
 
 namespace {
@@ -17,22 +18,24 @@ using benchmark::Kind;
 const char* const kUsage =
     "usage: bench [--even] [--graded] [--many] [--once] [TRIANGLES...]\n"
     "       bench --beside-gmsh [--even] [--graded] [--many] [--limit SECONDS] [--svg FILE] [TRIANGLES...]\n"
+    "       bench --hard [--limit SECONDS] [WORD]\n"
     "       bench --write FILE.msh [--graded | --many] [TRIANGLES]\n"
     "  Converts triangulations of about so many triangles (10000 100000 1000000): of even size, of graded size, and of "
     "many\n"
     "  surfaces (100); all three if none is named.\n"
     "  --once: one conversion each instead of the middle one of three\n"
     "  --beside-gmsh: the same triangles by Gmsh's recombination and by qmorph, as tables\n"
-    "  --limit SECONDS: of the processor, for each measurement beside Gmsh (600)\n"
+    "  --hard: inputs that are hard to convert in time, those with WORD in their names; fails above 30 microseconds a triangle\n"
+    "  --limit SECONDS: of the processor, for each measurement (600)\n"
     "  --svg FILE: the tables as a picture\n"
     "  --write FILE.msh: no conversion; the triangles as a file, for other programs\n";
 
 struct Request {
   std::vector<double> sizes;
   std::vector<Kind> kinds;
-  std::string write, svg;
+  std::string write, svg, word;
   int repeats = 3;
-  bool beside_gmsh = false;
+  bool beside_gmsh = false, hard = false;
   double limit = 600;
 };
 
@@ -51,6 +54,8 @@ bool parse(const std::vector<std::string>& words, Request& request) {
       request.repeats = 1;
     else if (word == "--beside-gmsh")
       request.beside_gmsh = true;
+    else if (word == "--hard")
+      request.hard = true;
     else if (word == "--limit" && has_value && std::atof(words[i + 1].c_str()) > 0)
       request.limit = std::atof(words[++i].c_str());
     else if (word == "--svg" && has_value)
@@ -59,6 +64,8 @@ bool parse(const std::vector<std::string>& words, Request& request) {
       request.write = words[++i];
     else if (const double size = std::atof(word.c_str()); size >= 100)
       request.sizes.push_back(size);
+    else if (request.hard && !word.starts_with("-"))
+      request.word = word;
     else
       return false;
   }
@@ -72,6 +79,7 @@ int main(int argc, char** argv) try {
   Request request;
   if (words == std::vector<std::string>{"--help"}) return std::fputs(kUsage, stdout), 0;
   if (!parse(words, request)) return std::fputs(kUsage, stderr), 1;
+  if (request.hard) return benchmark::time_hard_inputs(request.word, request.limit) ? 0 : 3;
   if (request.sizes.empty()) request.sizes = {1e4, 1e5, 1e6};
   if (!request.write.empty()) {
     const Kind kind = request.kinds.empty() ? Kind::even : request.kinds[0];

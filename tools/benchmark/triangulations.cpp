@@ -9,6 +9,8 @@
 #include <map>
 #include <utility>
 
+#include "random.hpp"
+
 namespace benchmark {
 namespace {
 
@@ -16,22 +18,6 @@ const double kRowHeight = std::sqrt(3.0) / 2;  // of a lattice with unit edges
 constexpr double kJitter = 0.15;               // of an edge, each way
 constexpr double kGrading = 100;               // largest size over smallest
 constexpr int kTilesEachWay = 10;              // of Kind::many
-
-/// SplitMix64 (Steele, Lea, Flood 2014). std::uniform_real_distribution differs between standard libraries.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double between(double low, double high) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    z ^= z >> 31;
-    return low + (high - low) * (double(z >> 11) * 0x1p-53);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// Hexagons whose sides run along lattice lines, so that a hole has a clean boundary.
 struct Holes {

@@ -139,8 +139,8 @@ bool has_fan(const Mesh& mesh, const std::vector<Index>& nodes) {
 /// Round by round over nodes; a round leaves the nodes that the next one has to look at.
 class Rounds {
  public:
-  Rounds(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing)
-      : mesh_(mesh), options_(options), valence_(mesh), trial_(mesh, smoothing, 3) {}
+  Rounds(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), options_(options), budget_(budget), valence_(mesh), trial_(mesh, smoothing, 3) {}
 
   void run_connectivity() {
     const std::vector<Pattern> patterns = read(connectivity_cases());
@@ -148,7 +148,8 @@ class Rounds {
   }
 
   void run_boundary() {
-    const std::vector<Pattern> patterns = read(boundary_cases());
+    std::vector<Pattern> patterns;
+    if (options_.boundary_cases) patterns = read(boundary_cases());
     run([&](Index v) {
       if (options_.boundary_cases) resolve(v, patterns);
       if (options_.transition_cases) make_transition(v);
@@ -171,7 +172,7 @@ class Rounds {
     for (int round = 0; round < options_.pattern_rounds && !nodes.empty(); ++round) {
       changed_.clear();
       for (Index v : nodes)
-        if (mesh_.is_live_vertex(v)) visit(v);
+        if (mesh_.is_live_vertex(v) && !budget_.is_spent()) visit(v);
       sort_unique(changed_);
       std::swap(nodes, changed_);
     }
@@ -264,6 +265,7 @@ class Rounds {
 
   Mesh& mesh_;
   const CleanupOptions& options_;
+  const kernel::Budget& budget_;
   GlossaryValence valence_;
   Trial trial_;
   std::vector<Index> changed_;
@@ -295,14 +297,15 @@ bool needs_fill_4(const Mesh& mesh, const Dart& dart, double angle) {
 
 }  // namespace
 
-std::size_t eliminate_chevrons(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing) {
+std::size_t eliminate_chevrons(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
+                               const kernel::Budget& budget) {
   Trial trial(mesh, smoothing, std::max(smoothing.iterations, 12));
   const auto better = [](double before, double after, int) { return after > 0 && after > before; };
   const Index faces = mesh.face_slots();  // those that a change makes are not looked at again
   const AngleLimit limit(options.chevron_angle);
   for (Index f = 0; f < faces; ++f) {
     const Index h = find_chevron_corner(mesh, f, limit);
-    if (h == kNone) continue;
+    if (h == kNone || budget.is_spent()) continue;
     const std::vector<Index> near = nodes_beside(mesh, f);
     if (has_fan(mesh, near)) continue;
     if (mesh.is_free(mesh.origin(h)) && trial.attempt_at({h, false}, "", false, near, better)) continue;
@@ -317,20 +320,23 @@ std::size_t eliminate_chevrons(Mesh& mesh, const CleanupOptions& options, const 
   return trial.changes();
 }
 
-std::size_t clean_up_connectivity(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing) {
-  Rounds rounds(mesh, options, smoothing);
+std::size_t clean_up_connectivity(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
+                               const kernel::Budget& budget) {
+  Rounds rounds(mesh, options, smoothing, budget);
   if (options.connectivity_cases) rounds.run_connectivity();
   return rounds.changes();
 }
 
-std::size_t clean_up_boundary(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing) {
-  Rounds rounds(mesh, options, smoothing);
+std::size_t clean_up_boundary(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
+                               const kernel::Budget& budget) {
+  Rounds rounds(mesh, options, smoothing, budget);
   rounds.run_boundary();
   return rounds.changes();
 }
 
-std::size_t clean_up_shape(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing) {
-  Rounds rounds(mesh, options, smoothing);
+std::size_t clean_up_shape(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
+                               const kernel::Budget& budget) {
+  Rounds rounds(mesh, options, smoothing, budget);
   if (options.shape_cases) rounds.run_shape();
   return rounds.changes();
 }

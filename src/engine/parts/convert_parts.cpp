@@ -14,20 +14,23 @@ struct PartResult {
   PartElements elements;
   ConversionReport report;
   Record record;
+  std::size_t cost = 0;
 };
 
-PartResult work_on_part(const Region& part, const Plane& plane, const Options& options) {
+PartResult work_on_part(const Region& part, const Plane& plane, const Options& options, double allowed) {
   PartResult result;
   kernel::Mesh mesh(part.points, part.triangles, part.open);
   for (Index v : part.fixed) mesh.set_fixed(v);
-  Pipeline pipeline(options, result.report, result.record, mesh);
+  Pipeline pipeline(options, result.report, result.record, mesh, allowed);
   pipeline.advance_front(mesh, plane);
   pipeline.clean(mesh);
   result.elements = PartElements(part.node, mesh);
+  result.cost = mesh.work();
   return result;
 }
 
-std::vector<PartResult> work_on_parts(const std::vector<Region>& parts, const Plane& plane, const Options& options) {
+std::vector<PartResult> work_on_parts(const std::vector<Region>& parts, const Plane& plane, const Options& options,
+                                      double allowed) {
   std::vector<PartResult> results(parts.size());
   std::size_t triangles = 0;
   for (const Region& part : parts) triangles += part.triangles.size();
@@ -38,7 +41,7 @@ std::vector<PartResult> work_on_parts(const std::vector<Region>& parts, const Pl
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[i];
-    results[i] = work_on_part(parts[i], plane, own);
+    results[i] = work_on_part(parts[i], plane, own, allowed * double(parts[i].triangles.size()) / double(triangles));
   });
   shared.finish();
   return results;
@@ -59,7 +62,8 @@ bool is_large(std::size_t triangles, const Options& options) {
 }
 
 std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::Mesh& input, const Plane& plane,
-                                             const Options& options, ConversionReport& report, Record& record) {
+                                             const Options& options, double allowed, ConversionReport& report,
+                                             Record& record) {
   if (has_grid_outline(start)) return {};  // cleanup will find the grid, but only in one piece
   const Division division = divide(start, options.part_triangles);
   if (division.parts < 2) return {};
@@ -67,7 +71,7 @@ std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::M
   const Whole whole(start, division);
   start = {};
 
-  std::vector<PartResult> results = work_on_parts(parts, plane, options);
+  std::vector<PartResult> results = work_on_parts(parts, plane, options, allowed);
   std::vector<PartElements> elements;
   for (PartResult& result : results) {
     report.add(result.report);
@@ -75,9 +79,10 @@ std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::M
     elements.push_back(std::move(result.elements));
   }
   kernel::Mesh mesh = join(whole, elements);
+  for (const PartResult& result : results) mesh.add_work(result.cost);
   elements.clear();
 
-  Pipeline pipeline(options, report, record, input);
+  Pipeline pipeline(options, report, record, input, allowed);
   if (wants_stages(options))
     for (Stage stage : {Stage::front, Stage::elimination, Stage::smoothing})
       record.stages[std::size_t(stage)] = join_stage(whole, parts, results, stage);
