@@ -12,6 +12,7 @@ struct Thresholds {
   double min_scaled_jacobian = 0;  ///< at or below which a quad is bad
   double max_irregular = 1;        ///< share of the interior nodes
   bool no_triangles = false;
+  std::optional<double> max_size_ratio;  ///< of the median lengths, along and across, over those of another mesh
 };
 
 /// One call of the command.
@@ -23,8 +24,10 @@ struct Request {
   std::string consumer;                        ///< of --for
   std::string elements = "CPS";                ///< family of a deck's surface elements
   Thresholds thresholds;
+  std::string before;  ///< mesh whose sizes those of a mesh that is checked are compared with, or empty
   std::vector<int> surfaces;
   std::string smoothing;              ///< the method, or empty
+  std::string layers = "on";          ///< or "off"
   std::vector<std::string> settings;  ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;

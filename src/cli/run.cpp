@@ -25,6 +25,7 @@
 #include "cli/scene.hpp"
 #include "cli/side_files.hpp"
 #include "cli/standard_streams.hpp"
+#include "gmsh/convert/compare_sizes.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/open.hpp"
 #include "gmsh/read/readable.hpp"
@@ -198,6 +199,7 @@ void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others) {
 Options engine_options(const Request& request) {
   Options options;
   options.threads = request.threads;
+  options.layers = request.layers == "on";
   if (request.smoothing == "thesis")
     options.smoothing.method = SmoothingMethod::thesis;
   else if (!request.smoothing.empty() && request.smoothing != "shape_energy")
@@ -248,14 +250,27 @@ adapter::OpenedModel open(const Request& request, std::ostream& err) {
   return opened;
 }
 
+/// The surfaces of the mesh that sizes are compared with.
+std::map<int, Patch> read_before(const Request& request) {
+  if (request.before.empty()) return {};
+  adapter::check_readable(request.before);
+  const adapter::Session session(request.gmsh_arguments);
+  adapter::open_model(request.before, {{}, {}, true, request.ignore_periodicity});
+  std::map<int, Patch> surfaces = adapter::read_surfaces();
+  if (surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.before));
+  return surfaces;
+}
+
 int check_file(const Request& request, std::ostream& out, std::ostream& err) {
   adapter::check_readable(request.input);
   ModelReport model;
   {
     const StdoutAsStderr redirected;
+    const std::map<int, Patch> before = read_before(request);
     const adapter::Session session(request.gmsh_arguments);
     adapter::open_model(request.input, {request.merged, {}, true, request.ignore_periodicity});
     model = session::measure_surfaces(request.surfaces);
+    adapter::compare_sizes(before, model);
   }
   if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", request.input));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', out);

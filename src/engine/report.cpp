@@ -13,12 +13,14 @@ const char* name_of(Stage stage) {
 void ConversionReport::add(const ConversionReport& other) {
   regions += other.regions;
   odd_regions += other.odd_regions;
+  layer_quads += other.layer_quads;
   front_quads += other.front_quads;
   leftover_triangles += other.leftover_triangles;
   front_seconds += other.front_seconds;
   elimination_seconds += other.elimination_seconds;
   cleanup_seconds += other.cleanup_seconds;
   smoothing_seconds += other.smoothing_seconds;
+  sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
 }
 
 }  // namespace qmorph

@@ -7,6 +7,7 @@
 #include "engine/collector.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "quality/directed_size.hpp"
 #include "quality/size_ratio.hpp"
 
 namespace qmorph {
@@ -23,8 +24,7 @@ QuadMesh at_stage(const Surface& surface, const std::vector<Record>& regions, st
   return collector.finish();
 }
 
-SurfaceRecord record_of(const Surface& surface, const Options& options, std::vector<Record>& regions,
-                        const QuadMesh& result) {
+SurfaceRecord record_of(const Surface& surface, const Options& options, std::vector<Record>& regions) {
   SurfaceRecord record;
   for (Record& region : regions) {
     for (std::size_t i = 0; i < kStages; ++i) record.seconds[i] += region.seconds[i];
@@ -33,8 +33,15 @@ SurfaceRecord record_of(const Surface& surface, const Options& options, std::vec
   if (!wants_stages(options)) return record;
   record.normal = surface.plane.normal();
   for (std::size_t i = 0; i < kStages; ++i) record.stages.push_back(at_stage(surface, regions, i));
-  record.size_ratios = size_ratios(surface.patch, result);
   return record;
+}
+
+SurfaceWork work_and_measure(const Patch& patch, const Options& options, const PatchWork& work) {
+  SurfaceWork result = work(patch, options);
+  const QuadMesh& mesh = result.conversion.mesh;
+  result.conversion.report.sizes = directed_sizes(patch, mesh.points, mesh.quads);
+  if (wants_stages(options)) result.record.size_ratios = size_ratios(patch, mesh);
+  return result;
 }
 
 }  // namespace
@@ -70,13 +77,13 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, cons
     collector.add(surface.regions[r], meshes[r]);
   }
   result.conversion.mesh = collector.finish();
-  if (options.observer) result.record = record_of(surface, options, records, result.conversion.mesh);
+  if (options.observer) result.record = record_of(surface, options, records);
   return result;
 }
 
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result;
-  parallel::with_threads(options.threads, [&] { result = work(patch, options); });
+  parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, work); });
   if (options.observer) result.record.tell(*options.observer, 0);
   return std::move(result.conversion);
 }
@@ -101,7 +108,7 @@ std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, c
     std::optional<NumberedObserver> numbered;
     if (options.observer) own.observer = &numbered.emplace(*options.observer, i);
     try {
-      SurfaceWork result = work(*patches[i], own);
+      SurfaceWork result = work_and_measure(*patches[i], own, work);
       outcomes[i].conversion = std::move(result.conversion);
       records[i] = std::move(result.record);
     } catch (const SurfaceError& error) {

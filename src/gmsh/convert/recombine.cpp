@@ -20,6 +20,7 @@
 #include "qmorph/check.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/gmsh.hpp"
+#include "quality/directed_size.hpp"
 
 namespace qmorph {
 namespace {
@@ -38,6 +39,16 @@ void refuse_bad_quads(const SurfaceMesh& surface) {
                          {.kind = ErrorKind::bad_element,
                           .place = bad->place,
                           .subject = ErrorSubject{ErrorSubject::Kind::element, part.quad_tags[bad->quad]}});
+}
+
+/// A complaint, if quads are much longer or shorter than the triangles were.
+std::string find_lost_size(const std::vector<DirectedSize>& sizes) {
+  const DirectedSize size = median(sizes);
+  if (largest_ratio(size) <= kLargestSizeRatio) return {};
+  return fmt::format(
+      "its quads are {:.1f} times as long as its triangles in the direction in which these are longest, and {:.1f} times in "
+      "the other (medians)",
+      size.along, size.across);
 }
 
 /// The quads of a surface may change.
@@ -244,6 +255,7 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.outcome = SurfaceOutcome::converted;
   report.conversion = converted.report;
   report.warnings = converted.surface.warnings;
+  if (std::string lost = find_lost_size(report.conversion.sizes); !lost.empty()) report.warnings.push_back(lost);
   report.quality = quality.result();
   converted_.push_back(std::move(converted));
   report_.check_seconds += watch.lap();
