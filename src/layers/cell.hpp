@@ -19,6 +19,9 @@ struct Cell {
   double aspect() const { return length / height; }
 };
 
+/// No corner is sharper than 20 degrees, or blunter than 160.
+bool is_convex(const Cell& cell);
+
 /// The cell on side `base` whose diagonal is `diagonal`, one of the other two sides of that triangle and no wall.
 Cell make_cell(const Sides& sides, Index base, Index diagonal);
 

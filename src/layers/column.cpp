@@ -16,8 +16,6 @@ constexpr double kPi = std::numbers::pi, kRight = kPi / 2, kDegree = kPi / 180;
 constexpr double kJump = 4, kNearJump = 2.2;
 /// By how much cells near to isotropic may be off what is expected, and the column's middle line off its direction.
 constexpr double kNearMisfit = 20 * kDegree;
-/// No corner is sharper or blunter, whatever is expected.
-constexpr double kSharpest = 20 * kDegree, kBluntest = 160 * kDegree;
 /// Higher cells than so many times their length belong to other columns.
 constexpr double kLeastAspect = 0.5;
 
@@ -105,8 +103,7 @@ std::optional<Cell> best_cell(const Cells& cells, const Column& column) {
   for (Index diagonal : {Sides::next(column.base), Sides::previous(column.base)}) {
     if (sides.is_wall(diagonal) || cells.is_taken(sides.opposite(diagonal) / 3)) continue;
     const Cell cell = make_cell(sides, column.base, diagonal);
-    const auto [least, most] = std::minmax_element(cell.angles.begin(), cell.angles.end());
-    if (*least < kSharpest || *most > kBluntest) continue;
+    if (!is_convex(cell)) continue;
     if (!best || misfit(cell, column) < misfit(*best, column)) best = cell;
   }
   return best;

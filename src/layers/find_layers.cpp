@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "layers/pair.hpp"
 #include "layers/remnants.hpp"
 #include "layers/strips.hpp"
 #include "layers/walls.hpp"
@@ -135,6 +136,7 @@ std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& w
   const std::vector<Cut> cuts = make_even(cells, regions);
   Layers layers;
   layers.patch = Writer(cells, cuts).write();
+  pair_remnants(layers.patch);
   layers.quads = layers.patch.quads.size() - patch.quads.size();
   if (layers.quads == 0) return std::nullopt;
   layers.regions = regions.sizes.size();

@@ -56,7 +56,31 @@ std::optional<Cut> cut_from(const Cells& cells, Index c) {
 
 double length_of(const Sides& sides, Index c) { return (sides.point(sides.to(c)) - sides.point(sides.from(c))).norm(); }
 
-/// The best cut between each two parts, from the lower to the higher number: the one with the longest end.
+/// How many free triangles of a small part lie beyond side c of a free triangle, which is not counted itself.
+std::size_t count_beyond(const Cells& cells, Index c) {
+  const Sides& sides = cells.sides();
+  std::vector<Index> found{c / 3};
+  const auto reach = [&](Index side) {
+    if (sides.is_wall(side)) return;
+    const Index t = sides.opposite(side) / 3;
+    if (!cells.is_taken(t) && std::find(found.begin(), found.end(), t) == found.end()) found.push_back(t);
+  };
+  reach(c);
+  for (std::size_t next = 1; next < found.size(); ++next)
+    for (Index side = 3 * found[next]; side < 3 * found[next] + 3; ++side) reach(side);
+  return found.size() - 1;
+}
+
+/// A triangle at the tip of a fan becomes two, which are halves of a straight angle. They should not be a pair, but have one
+/// each on both sides.
+bool leaves_pairs(const Cells& cells, const Parts& parts, Index start) {
+  constexpr std::size_t kFew = 16;
+  if (parts.sizes[parts.part_of[start / 3]] > kFew) return true;
+  return count_beyond(cells, Sides::next(start)) % 2 == 1 && count_beyond(cells, Sides::previous(start)) % 2 == 1;
+}
+
+/// The best cut between each two parts, from the lower to the higher number: of those that leave pairs at their ends the one with
+/// the longest end.
 using Links = std::map<std::pair<Index, Index>, Cut>;
 
 Links link_parts(const Cells& cells, const Parts& parts) {
@@ -68,9 +92,12 @@ Links link_parts(const Cells& cells, const Parts& parts) {
     if (!cut) continue;
     const Index from = parts.part_of[c / 3], to = parts.part_of[cut->end / 3];
     if (from >= to) continue;
-    const auto longest = [&](const Cut& k) { return std::max(length_of(sides, k.start), length_of(sides, k.end)); };
+    const auto worth = [&](const Cut& k) {
+      return std::pair(leaves_pairs(cells, parts, k.start) && leaves_pairs(cells, parts, k.end),
+                       std::max(length_of(sides, k.start), length_of(sides, k.end)));
+    };
     const auto [link, is_new] = links.try_emplace({from, to}, *cut);
-    if (!is_new && longest(*cut) > longest(link->second)) link->second = *cut;
+    if (!is_new && worth(*cut) > worth(link->second)) link->second = *cut;
   }
   return links;
 }

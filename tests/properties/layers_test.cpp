@@ -78,7 +78,7 @@ double smallest_sine(const QuadMesh& mesh, const Quad& quad) {
 }  // namespace
 
 TEST_CASE("layers: 300 random domains keep every row, and what is between layers becomes good quads") {
-  std::size_t truth = 0, kept = 0, whole_truth = 0, whole = 0, cut = 0, domains_with_cuts = 0;
+  std::size_t truth = 0, kept = 0, tips = 0, whole_truth = 0, whole = 0, cut = 0, domains_with_cuts = 0;
   for (std::uint64_t seed = 0; seed < seeds(300); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
     const auto [mesh, report] = qmorph::convert(domain.patch);
@@ -102,6 +102,7 @@ TEST_CASE("layers: 300 random domains keep every row, and what is between layers
     cut += cut_here;
     domains_with_cuts += cut_here > 0;
     whole_truth += domain.quads.size() - cut_here;
+    tips += domain.tip_triangles / 2;
     whole += layers.whole();
 
     double least = 1;
@@ -110,7 +111,7 @@ TEST_CASE("layers: 300 random domains keep every row, and what is between layers
     CHECK(least > 0.3);
   }
   CHECK(double(kept) >= 0.98 * double(truth));
-  CHECK(double(whole) <= 1.01 * double(whole_truth));
+  CHECK(double(whole) <= 1.01 * double(whole_truth) + double(tips));
   CHECK(cut > 0);  // columns at fans with an odd number of triangles at the tip
   CHECK(double(domains_with_cuts) < 0.4 * double(seeds(300)));
 }

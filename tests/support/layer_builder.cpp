@@ -95,6 +95,7 @@ void LayerBuilder::make_cells(LayeredDomain& domain) const {
       const Index a = right[k], b = left[k], c = left[k + 1], d = right[k + 1];
       if (a == b) {
         domain.patch.triangles.push_back({a, c, d});
+        ++domain.tip_triangles;
         continue;
       }
       if (k == 0 && has_wall_ && marks_walls) domain.patch.constraints.push_back({a, b});

@@ -17,6 +17,7 @@ struct LayeredDomain {
   Patch patch;                              ///< triangles
   std::vector<std::array<Index, 4>> quads;  ///< of the layers, counter-clockwise; the wall edge is the first side of some
   std::vector<Index> wall_quads;            ///< which of them stand on a wall
+  std::size_t tip_triangles = 0;            ///< in the first row of fans
 };
 
 /// How the cells of layers become triangles.
