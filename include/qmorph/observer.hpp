@@ -118,8 +118,9 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// A front is about to start: of a region, of a part of a large one, or once more with other constants of a small one. Who is
-  /// returned sees its steps; null: nobody does. Fronts run side by side: may be called from several threads at a time.
+  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large one, or once more with other
+  /// constants of a small one. Who is returned sees its steps; null: nobody does. Fronts run side by side: may be called from
+  /// several threads at a time.
   virtual std::unique_ptr<FrontObserver> front_starts(const FrontStart&) { return nullptr; }
 
   /// Of the fronts of a surface, those whose quads the result was made from; the others' observers are destroyed. This and

@@ -103,6 +103,8 @@ struct Options {
   FrontOptions front;
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
+  /// Triangles of boundary layers and structured strips stay the quads that they are halves of; the front has the others.
+  bool layers = true;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
   /// take no more triangles than this, or than six times its own where a region of up to twice as many has a quad with a scaled
   /// Jacobian under 0.7; the best result counts. 0: never.

@@ -8,7 +8,6 @@
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
-#include "quality/size_ratio.hpp"
 #include "space/reference.hpp"
 
 namespace qmorph::chart {
@@ -33,8 +32,8 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
   return works;
 }
 
-SurfaceRecord record_of(const Patch& patch, const Patch& kept, const std::vector<CurvedRegion>& regions,
-                        const Options& options, std::vector<RegionWork>& works, const QuadMesh& result) {
+SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regions,
+                        const Options& options, std::vector<RegionWork>& works) {
   SurfaceRecord record;
   record.normal.setZero();
   for (RegionWork& work : works) {
@@ -47,7 +46,6 @@ SurfaceRecord record_of(const Patch& patch, const Patch& kept, const std::vector
     for (const RegionWork& work : works) meshes.push_back(i + 1 == kStages ? &work.mesh : &work.stages[i]);
     record.stages.push_back(collect(kept, regions, meshes));
   }
-  record.size_ratios = size_ratios(patch, result);
   return record;
 }
 
@@ -65,7 +63,7 @@ SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vec
     result.conversion.report.odd_regions += regions[r].region.boundary_sides % 2;
   }
   result.conversion.mesh = collect(kept, regions, meshes);
-  if (options.observer) result.record = record_of(patch, kept, regions, options, works, result.conversion.mesh);
+  if (options.observer) result.record = record_of(kept, regions, options, works);
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "quality/directed_size.hpp"
+
 namespace qmorph::cli {
 
 namespace {
@@ -31,6 +33,13 @@ std::vector<std::string> find_reasons(const ModelReport& model, const Thresholds
     if (q.quads && !q.inverted && q.scaled_jacobian_min <= thresholds.min_scaled_jacobian)
       say(fmt::format("scaled Jacobian {:.3f}, and more than {:g} is asked for", q.scaled_jacobian_min,
                       thresholds.min_scaled_jacobian));
+    if (thresholds.max_size_ratio && surface.conversion.sizes.empty())
+      say("the mesh of --before has no triangles where its quads are");
+    if (const DirectedSize size = median(surface.conversion.sizes);
+        thresholds.max_size_ratio && largest_ratio(size) > *thresholds.max_size_ratio)
+      say(fmt::format("its quads are {:.2f} times as long as the triangles were in the direction in which these are longest, and "
+                      "{:.2f} times in the other (medians); between 1/{:g} and {:g} is asked for",
+                      size.along, size.across, *thresholds.max_size_ratio, *thresholds.max_size_ratio));
     if (thresholds.no_triangles && surface.triangles_in)
       say(fmt::format("{} triangle{}, and none is allowed", surface.triangles_in,
                       surface.triangles_in == 1 ? "" : "s"));

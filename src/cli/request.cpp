@@ -52,6 +52,8 @@ constexpr std::array kRows = {
     Row{"for", "--for READER", 1,
         "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
     Row{"elements", "--elements NAME", 1, "for decks: CPS (default), CPE, CAX, S or M3D, with an R behind for reduced"},
+    Row{"layers", "--layers on|off", 1,
+        "on (default): rows of triangles along walls stay rows of quads, with the heights that they have"},
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
     Row{"report", "--report FILE", 1, "write a page that shows the mesh before and after, and all figures (HTML)"},
     Row{"film", "--film FILE", 1, "write a page that plays how the front advanced, step by step (HTML)"},
@@ -69,8 +71,9 @@ constexpr std::array kRows = {
     Row{"min-sj", "--min-sj X", 1, "for --check: every scaled Jacobian above X (default 0)"},
     Row{"max-irregular", "--max-irregular X", 1, "for --check: irregular share of interior nodes at most X (0 to 1)"},
     Row{"no-triangles", "--no-triangles", 0, "for --check: not one triangle"},
-    Row{"against", "--against FILE", 1, "for --check: the triangles that IN was made from, to measure distances to"},
+    Row{"against", "--against FILE", 1, "for --check: the triangles that IN was made from, to compare with"},
     Row{"max-distance", "--max-distance X", 1, "for --check: nowhere farther from them than X edges"},
+    Row{"max-size-ratio", "--max-size-ratio X", 1, "for --check: quads at most X times as long, or as short, as they are"},
     Row{"help", "--help", 0, "show this text"},
     Row{"version", "--version", 0, "show the version"},
 };
@@ -290,6 +293,8 @@ Request parse(const std::vector<std::string>& arguments) {
   auto* no_triangles = app.add_flag("--no-triangles", request.thresholds.no_triangles);
   auto* against = app.add_option("--against", request.against);
   auto* distance = app.add_option("--max-distance", request.thresholds.max_distance)->check(CLI::NonNegativeNumber);
+  auto* size_ratio = app.add_option("--max-size-ratio", request.thresholds.max_size_ratio)->check(CLI::Range(1.0, 1e9));
+  app.add_option("--layers", request.layers)->check(CLI::IsMember({"on", "off"}));
   app.add_option("--nt", request.threads)->check(whole_number("-nt"));
   app.add_option("--v", request.verbosity)->check(whole_number("-v"));
   std::vector<std::string> surfaces;
@@ -328,9 +333,11 @@ Request parse(const std::vector<std::string>& arguments) {
   if (volumes) request.dimension = 3;
   if (*elements && request.consumer != "calculix" && request.consumer != "abaqus")
     throw UsageError("--elements goes with --for calculix or abaqus");
-  if (!request.check && (*min_sj || *irregular || *no_triangles || *against || *distance))
-    throw UsageError("--min-sj, --max-irregular, --no-triangles, --against and --max-distance go with --check");
-  if (*distance && !*against) throw UsageError("--max-distance: from what? (--against FILE)");
+  if (!request.check && (*min_sj || *irregular || *no_triangles || *against || *distance || *size_ratio))
+    throw UsageError(
+        "--min-sj, --max-irregular, --no-triangles, --against, --max-distance and --max-size-ratio go with --check");
+  if ((*distance || *size_ratio) && !*against)
+    throw UsageError("--max-distance and --max-size-ratio compare with other triangles; name their mesh: --against FILE");
   if (request.check) refuse_files_of_check(request);
   if (request.all_quad && request.cleanup_only)
     throw UsageError("--all-quad is for the conversion of triangles; --cleanup-only takes curves as they are");

@@ -14,6 +14,7 @@ struct Thresholds {
   double max_irregular = 1;        ///< share of the interior nodes
   bool no_triangles = false;
   double max_distance = std::numeric_limits<double>::infinity();  ///< from another mesh, in edges
+  std::optional<double> max_size_ratio;  ///< of the median lengths, along and across, over those of another mesh
 };
 
 /// One call of the command.
@@ -29,6 +30,7 @@ struct Request {
   std::string against;  ///< file with the mesh that --check measures distances to, or empty
   std::vector<int> surfaces;
   std::string smoothing;              ///< the method, or empty
+  std::string layers = "on";          ///< or "off"
   std::vector<std::string> settings;  ///< NAME=VALUE for set_option()
   int verbosity = 0;
   bool help = false, version = false;

@@ -129,6 +129,7 @@ void commit(adapter::StagedFile* mesh, const std::vector<SideFile>& others, adap
 Options engine_options(const Request& request) {
   Options options;
   options.threads = request.threads;
+  options.layers = request.layers == "on";
   if (request.smoothing == "thesis")
     options.smoothing.method = SmoothingMethod::thesis;
   else if (!request.smoothing.empty() && request.smoothing != "shape_energy")

@@ -1,26 +1,93 @@
 #include "qmorph/convert.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "chart/convert_curved.hpp"
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
 #include "engine/surface.hpp"
+#include "layers/find_layers.hpp"
 
 namespace qmorph {
 namespace {
 
-SurfaceWork convert_patch(const Patch& patch, const Options& options, double allowed) {
-  require_sound(patch);
+/// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out of the
+/// result, and their nodes are marked in `stuck`; if that is null, or the surface is curved, they are an error.
+SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options, double allowed,
+                              std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}, 0};
-  const std::optional<Plane> plane = find_plane(patch);
   if (!plane) return chart::convert_curved(patch, options, allowed);
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
-  return work_on_regions(
-      surface, options, allowed,
-      [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
-        return convert_region(surface.regions[r], surface.plane, own, most, report, record);
-      });
+  std::vector<char> is_stuck(surface.regions.size(), false);
+  const auto work = [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
+    try {
+      return convert_region(surface.regions[r], surface.plane, own, most, report, record);
+    } catch (const SurfaceError&) {
+      if (!stuck) throw;
+      is_stuck[r] = true;
+      record = {};
+      if (wants_stages(own)) record.stages.front() = kernel::Mesh();
+      return kernel::Mesh();
+    }
+  };
+  SurfaceWork result = work_on_regions(surface, options, allowed, work);
+  for (std::size_t r = 0; r < is_stuck.size(); ++r)
+    if (is_stuck[r])
+      for (Index v : surface.regions[r].node) (*stuck)[v] = true;
+  return result;
+}
+
+QuadMesh as_it_was(const Patch& patch) {
+  QuadMesh mesh{patch.points, {}, patch.triangles, patch.quads};
+  for (Index i = 0; i < patch.points.size(); ++i) mesh.source.push_back(i);
+  return mesh;
+}
+
+/// What the front has made of the rest, as a conversion of the patch.
+void add_layers(const Patch& patch, const layers::Layers& layers, const std::optional<Plane>& plane, const Options& options,
+                SurfaceWork& work) {
+  auto& [mesh, report] = work.conversion;
+  report.layer_quads = layers.quads;
+  report.regions = layers.regions;
+  report.odd_regions = layers.odd_regions;
+  auto& stages = work.record.stages;
+  if (wants_stages(options)) {
+    stages.resize(kStages, mesh);  // of nothing, if nothing was left
+    stages.front() = as_it_was(patch);
+    if (plane) work.record.normal = plane->normal();
+  }
+  const auto mend_sources = [&](QuadMesh& one) {
+    for (Index& source : one.source)
+      if (source != kNone && source >= patch.points.size()) source = kNone;  // in the middle of a column
+  };
+  mend_sources(mesh);
+  std::for_each(stages.begin(), stages.end(), mend_sources);
+}
+
+/// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the layers
+/// around it are left to the front as well, and at last all of them.
+SurfaceWork convert_patch(const Patch& patch, const Options& options, double allowed) {
+  constexpr int kTries = 2;
+  require_sound(patch);
+  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, allowed, nullptr);
+  const std::optional<Plane> plane = find_plane(patch);
+  std::vector<bool> stuck(patch.points.size(), false);
+  for (int i = 0; options.layers && i < kTries; ++i) {
+    const auto layers = layers::find_layers(patch, stuck);
+    if (!layers) break;
+    if (plane) require_no_overlap(Surface(patch, *plane).regions, *plane);
+    std::vector<bool> stuck_now(layers->patch.points.size(), false);
+    SurfaceWork work = convert_triangles(layers->patch, plane, options, allowed, &stuck_now);
+    if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
+      add_layers(patch, *layers, plane, options, work);
+      return work;
+    }
+    for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
+  }
+  return convert_triangles(patch, plane, options, allowed, nullptr);
 }
 
 }  // namespace

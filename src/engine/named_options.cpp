@@ -38,6 +38,7 @@ constexpr std::array kNames = {
     Name{"cleanup.transition_angle", 0, 360, [](Options& o, double v) { o.cleanup.transition_angle = v * kDegree; }},
     Name{"cleanup.shape_angle", 90, 360, [](Options& o, double v) { o.cleanup.shape_angle = v * kDegree; }},
     Name{"crease_angle", 0, 180, [](Options& o, double v) { o.crease_angle = v * kDegree; }},
+    Name{"layers", 0, 1, [](Options& o, double v) { o.layers = v != 0; }},
     Name{"part_triangles", 0, 1e9, [](Options& o, double v) { o.part_triangles = std::size_t(v); }},
     Name{"smoothing.iterations", 0, 1000, [](Options& o, double v) { o.smoothing.iterations = int(v); }},
     Name{"smoothing.target_quality", 0, 1, [](Options& o, double v) { o.smoothing.target_quality = v; }},

@@ -14,6 +14,7 @@ void ConversionReport::add(const ConversionReport& other) {
   regions += other.regions;
   odd_regions += other.odd_regions;
   worse_regions += other.worse_regions;
+  layer_quads += other.layer_quads;
   front_quads += other.front_quads;
   leftover_triangles += other.leftover_triangles;
   budgets_spent += other.budgets_spent;
@@ -21,6 +22,7 @@ void ConversionReport::add(const ConversionReport& other) {
   elimination_seconds += other.elimination_seconds;
   cleanup_seconds += other.cleanup_seconds;
   smoothing_seconds += other.smoothing_seconds;
+  sizes.insert(sizes.end(), other.sizes.begin(), other.sizes.end());
 }
 
 }  // namespace qmorph

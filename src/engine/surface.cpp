@@ -10,6 +10,7 @@
 #include "engine/collector.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "quality/directed_size.hpp"
 #include "quality/size_ratio.hpp"
 
 namespace qmorph {
@@ -26,8 +27,7 @@ QuadMesh at_stage(const Surface& surface, const std::vector<Record>& regions, st
   return collector.finish();
 }
 
-SurfaceRecord record_of(const Surface& surface, const Options& options, std::vector<Record>& regions,
-                        const QuadMesh& result) {
+SurfaceRecord record_of(const Surface& surface, const Options& options, std::vector<Record>& regions) {
   SurfaceRecord record;
   for (Record& region : regions) {
     for (std::size_t i = 0; i < kStages; ++i) record.seconds[i] += region.seconds[i];
@@ -36,12 +36,19 @@ SurfaceRecord record_of(const Surface& surface, const Options& options, std::vec
   if (!wants_stages(options)) return record;
   record.normal = surface.plane.normal();
   for (std::size_t i = 0; i < kStages; ++i) record.stages.push_back(at_stage(surface, regions, i));
-  record.size_ratios = size_ratios(surface.patch, result);
   return record;
 }
 
 /// Triangles that it has, or could have.
 double weight(const Patch& patch) { return double(patch.triangles.size() + 2 * patch.quads.size()); }
+
+SurfaceWork work_and_measure(const Patch& patch, const Options& options, double allowed, const PatchWork& work) {
+  SurfaceWork result = work(patch, options, allowed);
+  const QuadMesh& mesh = result.conversion.mesh;
+  result.conversion.report.sizes = directed_sizes(patch, mesh.points, mesh.quads);
+  if (wants_stages(options)) result.record.size_ratios = size_ratios(patch, mesh);
+  return result;
+}
 
 }  // namespace
 
@@ -79,13 +86,14 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, doub
     result.cost += double(meshes[r].work());
   }
   result.conversion.mesh = collector.finish();
-  if (options.observer) result.record = record_of(surface, options, records, result.conversion.mesh);
+  if (options.observer) result.record = record_of(surface, options, records);
   return result;
 }
 
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result;
-  parallel::with_threads(options.threads, [&] { result = work(patch, options, allowance(weight(patch))); });
+  parallel::with_threads(options.threads,
+                         [&] { result = work_and_measure(patch, options, allowance(weight(patch)), work); });
   if (options.observer) result.record.tell(*options.observer, 0);
   return std::move(result.conversion);
 }
@@ -145,7 +153,7 @@ class Patches {
     if (options_.observer) own.observer = &numbered.emplace(*options_.observer, i);
     double cost = 0;
     try {
-      SurfaceWork result = work_(*patches_[i], own, allowed);
+      SurfaceWork result = work_and_measure(*patches_[i], own, allowed, work_);
       outcomes_[i].conversion = std::move(result.conversion);
       records_[i] = std::move(result.record);
       cost = result.cost;

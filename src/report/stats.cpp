@@ -97,9 +97,17 @@ Json size_json(std::vector<double> ratios) {
   return {{"median", percentile(ratios, 50)}, {"p5", percentile(ratios, 5)}, {"p95", percentile(ratios, 95)}};
 }
 
+/// Lengths over those of the triangles, in the direction in which these are longest and in the other.
+Json directions_json(const std::vector<DirectedSize>& sizes) {
+  std::vector<double> along, across;
+  for (const DirectedSize& size : sizes) along.push_back(size.along), across.push_back(size.across);
+  return {{"along", size_json(along)}, {"across", size_json(across)}};
+}
+
 Json engine_json(const ConversionReport& s, const History& history) {
   return {{"regions", s.regions},
           {"odd_regions", s.odd_regions},
+          {"layer_quads", s.layer_quads},
           {"front_quads", s.front_quads},
           {"leftover_triangles", s.leftover_triangles},
           {"seconds",
@@ -108,6 +116,7 @@ Json engine_json(const ConversionReport& s, const History& history) {
             {"cleanup", s.cleanup_seconds},
             {"smoothing", s.smoothing_seconds}}},
           {"size_ratio", size_json(history.size_ratios)},
+          {"directed_size_ratio", directions_json(s.sizes)},
           {"stages", stages_json(history.stages)}};
 }
 
@@ -179,7 +188,11 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
   if (model.fidelity.quads) json["in_space"] = fidelity_json(model.fidelity);
   json["poor_quads"] = poor_json(model.count_poor());
   const History sum = sum_of(model, recorder);
+  ConversionReport conversions;
+  for (const SurfaceReport& surface : model.surfaces) conversions.add(surface.conversion);
+  json["layer_quads"] = conversions.layer_quads;
   json["size_ratio"] = size_json(sum.size_ratios);
+  json["directed_size_ratio"] = directions_json(conversions.sizes);
   json["stages"] = stages_json(sum.stages);
   if (facts.even) json["all_quad"] = even_json(*facts.even);
   json["surfaces"] = Json::array();

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "quality/directed_size.hpp"
+
 namespace qmorph::report {
 namespace {
 
@@ -45,6 +47,13 @@ std::string distance(const Fidelity& fidelity) {
                      fidelity.centre.max);
 }
 
+std::string sizes(const std::vector<DirectedSize>& all) {
+  if (all.empty()) return "";
+  const DirectedSize size = median(all);
+  return fmt::format("; size {:.2f} along {:.2f} across", size.along, size.across);
+}
+}
+
 }  // namespace
 
 std::string surface_line(const SurfaceReport& surface) {
@@ -60,8 +69,10 @@ std::string surface_line(const SurfaceReport& surface) {
     case SurfaceOutcome::converted:
       break;
   }
-  return line + fmt::format(": {} -> {}; {}", before, elements(surface.triangles_out, surface.quads_out),
-                            figures(surface.quality, surface.quads_out));
+  std::string after = elements(surface.triangles_out, surface.quads_out);
+  if (surface.conversion.layer_quads > 0) after += fmt::format(", {} of them in layers", surface.conversion.layer_quads);
+  return line + fmt::format(": {} -> {}; {}{}", before, after, figures(surface.quality, surface.quads_out),
+                            sizes(surface.conversion.sizes));
 }
 
 std::string check_line(const ModelReport& model) {
@@ -70,8 +81,10 @@ std::string check_line(const ModelReport& model) {
     triangles += surface.triangles_in;
     quads += surface.quads_in;
   }
-  return fmt::format("{} on {}; {}{}", elements(triangles, quads), counted(model.surfaces.size(), "surface"),
-                     figures(model.total, quads), distance(model.fidelity));
+  ConversionReport sum;
+  for (const SurfaceReport& surface : model.surfaces) sum.add(surface.conversion);
+  return fmt::format("{} on {}; {}{}{}", elements(triangles, quads), counted(model.surfaces.size(), "surface"),
+                     figures(model.total, quads), sizes(sum.sizes), distance(model.fidelity));
 }
 
 std::string total_line(const ModelReport& model, const std::string& output, double seconds) {

@@ -15,9 +15,10 @@ using namespace qmorph;
 using test::random_domain;
 using test::Watcher;
 
-Conversion convert_watched(const Patch& patch, Watcher& watcher) {
+Conversion convert_watched(const Patch& patch, Watcher& watcher, bool layers = true) {
   Options options;
   options.observer = &watcher;
+  options.layers = layers;
   return convert(patch, options);
 }
 
@@ -70,6 +71,7 @@ TEST_CASE("stages: of several surfaces each is told of under its number, in orde
   Watcher watcher;
   Options options;
   options.observer = &watcher;
+  options.layers = false;  // between layers a region may have several fronts
   const std::vector<Outcome> outcomes = convert_all(all, options);
   REQUIRE(watcher.stages.size() == 4 * kStages);
   std::size_t at = 0;
@@ -89,7 +91,8 @@ TEST_CASE("stages: fronts of tries that were not taken are not kept") {
   int started = 0, kept = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Watcher watcher;
-    const Conversion conversion = convert_watched(random_domain(seed).patch, watcher);
+    // Between layers a region may have several fronts.
+    const Conversion conversion = convert_watched(random_domain(seed).patch, watcher, false);
     CHECK(watcher.fronts.size() <= conversion.report.regions);
     std::size_t quads = 0;
     for (const Watcher::FrontNote& front : watcher.fronts)

@@ -2,13 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 #include "qmorph/convert.hpp"
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
 #include "support/nasty.hpp"
+#include "support/seeds.hpp"
 
 namespace {
 
@@ -17,12 +17,7 @@ using qmorph::QuadMesh;
 using qmorph::test::Domain;
 using qmorph::test::random_domain;
 using qmorph::test::Rng;
-
-/// How many seeds a law is tried on: `usual`, or fewer or more when QMORPH_DOMAINS is not 1000, in proportion.
-std::uint64_t seeds(std::uint64_t usual) {
-  const char* text = std::getenv("QMORPH_DOMAINS");
-  return text ? std::max<std::uint64_t>(1, usual * std::strtoull(text, nullptr, 10) / 1000) : usual;
-}
+using qmorph::test::seeds;
 
 /// What does not hold for the conversion of a patch; an exception is one line too.
 std::vector<std::string> broken_conversion(const Patch& patch, QuadMesh* result = nullptr,

@@ -35,6 +35,8 @@ class Sketch {
   int node(const Eigen::Vector2d& place);
   /// A line, cut into pieces of the field's size, at least `least` of them; returns its nodes, both ends included.
   std::vector<int> line(int from, int to, SegmentKind kind, int least = 1);
+  /// A line in one piece, however long it is.
+  void edge(int from, int to, SegmentKind kind) { segments_.push_back({from, to, kind}); }
   /// A polygon through corners; `closed` for the last side.
   std::vector<int> path(const std::vector<Eigen::Vector2d>& corners, SegmentKind kind, bool closed);
   /// A node that stays in place.

@@ -23,6 +23,7 @@
 #include "qmorph/check.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/gmsh.hpp"
+#include "quality/directed_size.hpp"
 
 namespace qmorph {
 namespace {
@@ -60,6 +61,16 @@ void warn_of_loose_parts(const ClassifiedMesh& model, std::vector<std::string>& 
 
 /// Means of scaled Jacobians that differ by no more are the same.
 constexpr double kSameMean = 1e-9;
+
+/// A complaint, if quads are much longer or shorter than the triangles were.
+std::string find_lost_size(const std::vector<DirectedSize>& sizes) {
+  const DirectedSize size = median(sizes);
+  if (largest_ratio(size) <= kLargestSizeRatio) return {};
+  return fmt::format(
+      "its quads are {:.1f} times as long as its triangles in the direction in which these are longest, and {:.1f} times in "
+      "the other (medians)",
+      size.along, size.across);
+}
 
 /// The quads of a surface may change.
 void free_quads(SurfaceMesh& surface) {
@@ -279,6 +290,7 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.outcome = SurfaceOutcome::converted;
   report.conversion = converted.report;
   report.warnings = converted.surface.warnings;
+  if (std::string lost = find_lost_size(report.conversion.sizes); !lost.empty()) report.warnings.push_back(lost);
   report.quality = quality.result();
   if (task_ == Task::improve) compare_with_input(converted, report);
   converted_.push_back(std::move(converted));
@@ -327,7 +339,9 @@ void Run::measure_quads(std::uint32_t entity, SurfaceReport& report) {
   report.quality = quality.result();
   if (const auto before = before_.find(report.tag); before != before_.end()) {
     FidelityAccumulator fidelity;
-    fidelity.add_any(before->second, as_result(whole_surface(surface)));
+    const Patch now = whole_surface(surface);
+    report.conversion.sizes = directed_sizes(before->second, now.points, now.quads);
+    fidelity.add_any(before->second, as_result(now));
     fidelity_.add(fidelity);
     report.fidelity = fidelity.result();
   }

@@ -54,6 +54,10 @@ export function chips(stats, {quads, triangles}) {
   if (total.inverted) list.push([total.inverted, "inverted"]);
   if (sj) list.push([short(sj.min), "smallest scaled Jacobian"], [short(sj.mean), "mean scaled Jacobian"]);
   list.push([percent(total.irregular_share), "irregular nodes"]);
+  if (stats.layer_quads) list.push([whole(stats.layer_quads), stats.layer_quads === 1 ? "quad of layers" : "quads of layers"]);
+  const {along, across} = stats.directed_size_ratio ?? {};
+  if (along?.median)
+    list.push([`${short(along.median, 2)} × ${short(across.median, 2)}`, "lengths over the triangles’, along and across"]);
   if (stats.size_ratio?.median) list.push([short(stats.size_ratio.median, 2), "edge length over the input's"]);
   if (stats.in_space) list.push([short(stats.in_space.distance.centre.mean, 3), "edges from the centres to the surface"],
                                 [`${short(stats.in_space.warpage_deg.p99, 1)}°`, "warpage of 99 %"]);

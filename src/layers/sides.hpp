@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// The triangles of a patch, and what lies beyond each of their sides.
+
+#include <vector>
+
+#include "qmorph/patch.hpp"
+
+namespace qmorph::layers {
+
+/// Side c belongs to triangle c / 3 and runs from its corner c % 3 to the next one. The patch must outlive it.
+class Sides {
+ public:
+  explicit Sides(const Patch& patch);
+
+  static Index next(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
+  static Index previous(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
+
+  const Patch& patch() const { return patch_; }
+  Index count() const { return Index(opposite_.size()); }
+  Index from(Index c) const { return patch_.triangles[c / 3][c % 3]; }
+  Index to(Index c) const { return from(next(c)); }
+  /// The corner across.
+  Index apex(Index c) const { return from(previous(c)); }
+  const Eigen::Vector3d& point(Index node) const { return patch_.points[node]; }
+  /// The same edge's side in the other triangle. kNone for a wall: the boundary, a constraint, a quad that is kept, and any
+  /// edge that more than two triangles have.
+  Index opposite(Index c) const { return opposite_[c]; }
+  bool is_wall(Index c) const { return opposite_[c] == kNone; }
+
+  /// The wall side that begins where the wall side c ends, and the one that ends where it begins.
+  Index next_wall(Index c) const;
+  Index previous_wall(Index c) const;
+
+ private:
+
+  const Patch& patch_;
+  std::vector<Index> opposite_;
+};
+
+}  // namespace qmorph::layers

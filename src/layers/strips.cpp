@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "layers/strips.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "layers/remnants.hpp"
+#include "layers/walls.hpp"
+
+namespace qmorph::layers {
+namespace {
+
+constexpr double kRight = std::numbers::pi / 2;
+
+/// The shortest side of a free triangle that may be half of a cell much longer than high; kNone of another one.
+Index short_side(const Cells& cells, Index t) {
+  const Sides& sides = cells.sides();
+  if (cells.is_taken(t)) return kNone;
+  std::array<Eigen::Vector3d, 3> along;
+  for (Index i = 0; i < 3; ++i) along[i] = sides.point(sides.to(3 * t + i)) - sides.point(sides.from(3 * t + i));
+  Index shortest = 0, longest = 0;
+  for (Index i = 1; i < 3; ++i) {
+    if (along[i].squaredNorm() < along[shortest].squaredNorm()) shortest = i;
+    if (along[i].squaredNorm() > along[longest].squaredNorm()) longest = i;
+  }
+  if (!(along[longest].squaredNorm() >= kStart * along[0].cross(along[1]).norm())) return kNone;
+  const auto off_perpendicular = [&](Index other) {
+    return std::abs(std::atan2(along[shortest].cross(along[other]).norm(), along[shortest].dot(along[other])) - kRight);
+  };
+  return std::min(off_perpendicular((shortest + 1) % 3), off_perpendicular((shortest + 2) % 3)) <= kMisfitBeside
+             ? 3 * t + shortest
+             : kNone;
+}
+
+/// By how much the worst corner is off 90 degrees.
+double skew(const Cell& cell) {
+  double worst = 0;
+  for (double angle : cell.angles) worst = std::max(worst, std::abs(angle - kRight));
+  return worst;
+}
+
+/// One of the two ways to make a column of triangles into pairs.
+struct Pairing {
+  std::vector<Cell> cells;  ///< those that are long and not too askew
+  double skew = 0;          ///< their mean
+
+  /// By how much rows bend where they go on beside it, in the mean; nothing if no cell has a neighbour.
+  std::optional<double> bend(const Cells& taken) const {
+    double sum = 0;
+    std::size_t count = 0;
+    // The corners at the two ends of a lateral side, and the angles of the cell beyond: together straight.
+    const auto look = [&](Index side, double at_start, double at_end) {
+      const Index number = taken.beside(side);
+      if (number == kNone) return;
+      const Cell& other = taken[number];
+      const bool is_left = other.left == taken.sides().opposite(side);
+      sum += std::abs(at_start + other.angles[is_left ? 0 : 2] - 2 * kRight);
+      sum += std::abs(at_end + other.angles[is_left ? 3 : 1] - 2 * kRight);
+      count += 2;
+    };
+    for (const Cell& cell : cells) {
+      look(cell.right, cell.angles[1], cell.angles[2]);
+      look(cell.left, cell.angles[3], cell.angles[0]);
+    }
+    if (count == 0) return std::nullopt;
+    return sum / double(count);
+  }
+};
+
+class Strips {
+ public:
+  explicit Strips(Cells& cells) : cells_(cells), sides_(cells.sides()), short_(sides_.count() / 3), path_of_(short_.size(), kNone) {
+    for (Index t = 0; t < short_.size(); ++t) short_[t] = short_side(cells_, t);
+    for (Index t = 0; t < short_.size(); ++t)
+      if (short_[t] != kNone && path_of_[t] == kNone) walk(t);
+  }
+
+  void take() {
+    const Index first = Index(cells_.size());
+    std::deque<Index> undecided;
+    for (Index p = 0; p < paths_.size(); ++p) {
+      const auto& [one, two] = paths_[p].pairings;
+      const bool is_askew = std::abs(one.skew - two.skew) > kClearSkew && !one.cells.empty() && !two.cells.empty();
+      if (is_askew)
+        take_pairs(p, one.skew < two.skew ? one : two);
+      else if (one.cells.size() != two.cells.size())
+        take_pairs(p, one.cells.size() > two.cells.size() ? one : two);
+      else
+        undecided.push_back(p);
+    }
+    // Neighbours of columns that are decided first; where there is none, the less skew way.
+    for (; !undecided.empty(); undecided.pop_front()) {
+      queue_.push_back(undecided.front());
+      while (!queue_.empty()) {
+        const Index p = queue_.front();
+        queue_.pop_front();
+        if (paths_[p].is_decided) continue;
+        const auto& [one, two] = paths_[p].pairings;
+        const auto bend_one = one.bend(cells_), bend_two = two.bend(cells_);
+        const bool is_two = bend_one && bend_two ? *bend_two < *bend_one : two.skew < one.skew;
+        take_pairs(p, is_two ? two : one);
+      }
+    }
+    drop_lone_cells(first);
+    march_on(first);
+  }
+
+ private:
+  static constexpr double kClearSkew = 8 * kRight / 90;
+
+  struct Path {
+    std::array<Pairing, 2> pairings;
+    bool is_decided = false;
+  };
+
+  /// From a triangle across one of its long sides, to another one.
+  bool is_link(Index c) const {
+    if (c == short_[c / 3] || sides_.is_wall(c)) return false;
+    const Index other = sides_.opposite(c);
+    return short_[other / 3] != kNone && other != short_[other / 3];
+  }
+
+  Index other_long_side(Index c) const {
+    const Index next = Sides::next(c);
+    return next == short_[c / 3] ? Sides::next(next) : next;
+  }
+
+  /// Finds the column that triangle t is part of.
+  void walk(Index t) {
+    Index c = Sides::next(short_[t]);  // back to where it begins, or once round
+    while (is_link(c)) {
+      c = other_long_side(sides_.opposite(c));
+      if (c / 3 == t) break;
+    }
+    Path path;
+    std::array<double, 2> sum{};
+    const Index begin = c / 3;
+    // `c` is the long side of a triangle through which the column enters.
+    for (std::size_t i = 0;; ++i) {
+      path_of_[c / 3] = Index(paths_.size());
+      const Index diagonal = other_long_side(c);
+      if (!is_link(diagonal)) break;
+      const Cell cell = make_cell(sides_, c, diagonal);
+      if (const double off = skew(cell); off <= kMisfit && cell.aspect() >= kNearIsotropic) {
+        path.pairings[i % 2].cells.push_back(cell);
+        sum[i % 2] += off;
+      }
+      c = sides_.opposite(diagonal);
+      if (c / 3 == begin) break;
+    }
+    for (std::size_t k = 0; k < 2; ++k)
+      if (!path.pairings[k].cells.empty()) path.pairings[k].skew = sum[k] / double(path.pairings[k].cells.size());
+    paths_.push_back(std::move(path));
+  }
+
+  void take_pairs(Index p, const Pairing& pairing) {
+    paths_[p].is_decided = true;
+    for (const Cell& cell : pairing.cells) {
+      if (cells_.is_taken(cell.triangles[0]) || cells_.is_taken(cell.triangles[1])) continue;
+      cells_.take(cell);
+      for (Index side : {cell.left, cell.right}) {
+        if (sides_.is_wall(side)) continue;
+        const Index beside = path_of_[sides_.opposite(side) / 3];
+        if (beside != kNone && !paths_[beside].is_decided) queue_.push_back(beside);
+      }
+    }
+  }
+
+  void drop_lone_cells(Index first) {
+    std::vector<Index> lone;
+    for (Index i = first; i < cells_.size(); ++i)
+      if (cells_.row_length(i, 0, kRow) < kRow) lone.push_back(i);
+    for (Index i : lone) cells_.drop(i);
+  }
+
+  void march_on(Index first) {
+    std::vector<Column> columns;
+    for (Index i = first; i < cells_.size(); ++i) {
+      if (!cells_.is_live(i)) continue;
+      columns.push_back(column_above(sides_, cells_[i]));
+      columns.push_back(column_below(sides_, cells_[i]));
+    }
+    std::erase_if(columns, [&](const Column& column) { return column.base == kNone || cells_.is_taken(column.base / 3); });
+    march(cells_, columns);
+  }
+
+  Cells& cells_;
+  const Sides& sides_;
+  std::vector<Index> short_, path_of_;  ///< by triangle
+  std::vector<Path> paths_;
+  std::deque<Index> queue_;
+};
+
+/// Takes a set of free triangles that hang together, by cells that go on from the ones around; all, or none.
+class Gap {
+ public:
+  explicit Gap(Cells& cells) : cells_(cells), sides_(cells.sides()) {}
+
+  void fill(const std::vector<Index>& triangles) {
+    const Index first = Index(cells_.size());
+    bases_.clear();
+    for (Index t : triangles)
+      for (Index c = 3 * t; c < 3 * t + 3; ++c)
+        if (!sides_.is_wall(c) && cells_.is_taken(sides_.opposite(c) / 3)) bases_.push_back(c);
+    if (take_all() && 2 * (cells_.size() - first) == triangles.size()) return;
+    for (Index i = first; i < cells_.size(); ++i) cells_.drop(i);
+  }
+
+ private:
+  bool take_all() {
+    for (std::size_t next = 0; next < bases_.size(); ++next) {
+      const Column column{.base = bases_[next], .straight = {kRight, kRight}};
+      if (cells_.is_taken(column.base / 3)) continue;
+      const auto cell = best_cell(cells_, column);
+      if (!cell || misfit(*cell, column) > kMisfit) return false;
+      cells_.take(*cell);
+      for (Index side : {cell->right, cell->top, cell->left})
+        if (!sides_.is_wall(side)) bases_.push_back(sides_.opposite(side));
+    }
+    return true;
+  }
+
+  Cells& cells_;
+  const Sides& sides_;
+  std::vector<Index> bases_;
+};
+
+}  // namespace
+
+void take_strips(Cells& cells) { Strips(cells).take(); }
+
+void fill_gaps(Cells& cells) {
+  const Parts parts = free_parts(cells);
+  std::vector<std::vector<Index>> triangles(parts.sizes.size());
+  for (Index t = 0; t < parts.part_of.size(); ++t)
+    if (parts.part_of[t] != kNone) triangles[parts.part_of[t]].push_back(t);
+  Gap gap(cells);
+  for (const auto& part : triangles) gap.fill(part);
+}
+
+}  // namespace qmorph::layers

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// How many random domains a law is tried on.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+namespace qmorph::test {
+
+/// `usual`, or fewer or more when QMORPH_DOMAINS is not 1000, in proportion.
+inline std::uint64_t seeds(std::uint64_t usual) {
+  const char* text = std::getenv("QMORPH_DOMAINS");
+  return text ? std::max<std::uint64_t>(1, usual * std::strtoull(text, nullptr, 10) / 1000) : usual;
+}
+
+}  // namespace qmorph::test
