@@ -50,7 +50,7 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 }
 
 /// `kept` has those quads of the patch that stay.
-SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vector<CurvedRegion>& regions,
+SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions,
                            const Options& options, double allowed, Task task) {
   std::vector<RegionWork> works = work_on_all(regions, options, allowed, task);
   SurfaceWork result;
@@ -70,7 +70,7 @@ SurfaceWork work_on_curved(const Patch& patch, const Patch& kept, const std::vec
 }  // namespace
 
 SurfaceWork convert_curved(const Patch& patch, const Options& options, double allowed) {
-  return work_on_curved(patch, patch, curved_regions(patch, options.crease_angle), options, allowed, Task::convert);
+  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, allowed, Task::convert);
 }
 
 SurfaceWork improve_curved(const Patch& patch, const Options& options, double allowed) {
@@ -78,7 +78,7 @@ SurfaceWork improve_curved(const Patch& patch, const Options& options, double al
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(patch, halves, regions, options, allowed, Task::improve);
+  return work_on_curved(halves, regions, options, allowed, Task::improve);
 }
 
 }  // namespace qmorph::chart
