@@ -52,7 +52,6 @@ std::string sizes(const std::vector<DirectedSize>& all) {
   const DirectedSize size = median(all);
   return fmt::format("; size {:.2f} along {:.2f} across", size.along, size.across);
 }
-}
 
 }  // namespace
 
