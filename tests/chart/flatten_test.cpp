@@ -73,7 +73,7 @@ TEST_CASE("flatten: what was rolled up is unrolled") {
   }
   SUBCASE("a plane in space, at any scale") {
     for (const double scale : {1e-9, 1.0, 1e9}) {
-      const Flattening chart = flat(mapped(plane, [&](double x, double y) { return scale * Vector3d(x, 0.6 * y, 0.8 * y); }));
+      const Flattening chart = flat(mapped(plane, [&](double x, double y) { return Vector3d(scale * Vector3d(x, 0.6 * y, 0.8 * y)); }));
       CHECK(chart.distortion == doctest::Approx(1));
       CHECK(chart.scaling == doctest::Approx(1));
     }

@@ -31,7 +31,7 @@ template <class CleanUp, class Check>
 void in_both_hands(const Mesh& mesh, const CleanUp& clean_up, const Check& check) {
   for (Mesh m : {mesh, mirror_image(mesh)}) {
     const Edges boundary = boundary_of(m);
-    REQUIRE(clean_up(m, everything(), SmoothingOptions{}) > 0);
+    REQUIRE(clean_up(m, everything(), SmoothingOptions{}, kernel::Budget{}) > 0);
     CHECK(defect(m) == "");
     CHECK(boundary_of(m) == boundary);
     check(m);

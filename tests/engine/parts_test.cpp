@@ -1,6 +1,7 @@
 // Large regions are cut into parts; what the parts become is put together again.
 #include <doctest/doctest.h>
 
+#include "engine/allowance.hpp"
 #include "engine/parts/convert_parts.hpp"
 #include "engine/parts/cutting_line.hpp"
 #include "engine/parts/divide.hpp"
@@ -127,7 +128,8 @@ TEST_CASE(
   for (const Sample& sample : all) {
     ConversionReport report;
     Record record;
-    const auto mesh = convert_in_parts(sample.mesh, {}, sample.plane, options, report, record);
+    const double allowed = allowance(double(sample.region.triangles.size()));
+    const auto mesh = convert_in_parts(sample.mesh, {}, sample.plane, options, allowed, report, record);
     REQUIRE(mesh);
     CHECK(find_defects(*mesh, false).empty());
     failed += find_fault(*mesh, sample.region, sample.plane).has_value();
