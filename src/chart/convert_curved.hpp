@@ -5,7 +5,7 @@
 namespace qmorph::chart {
 
 /// convert() and improve() of a patch that is not planar.
-SurfaceWork convert_curved(const Patch& patch, const Options& options, double allowed);
-SurfaceWork improve_curved(const Patch& patch, const Options& options, double allowed);
+SurfaceWork convert_curved(const Patch& patch, const Options& options);
+SurfaceWork improve_curved(const Patch& patch, const Options& options);
 
 }  // namespace qmorph::chart

@@ -77,7 +77,7 @@ std::optional<Reworked> clean_window(const LaidOut& window, const Options& optio
   own.progress = {};
   ConversionReport report;
   Record record;
-  Pipeline pipeline(own, report, record, work.mesh, allowance(double(work.mesh.face_slots())));
+  Pipeline pipeline(own, report, record, work.mesh, allowance(work.mesh.face_slots()));
   pipeline.clean_near(work.mesh, nodes);
   pipeline.polish(work.mesh);
   if (count_bad(work.mesh) > bad || folds_onto_itself(work.mesh, piece)) return {};
