@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "gmsh/model/add_elements.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "qmorph/error.hpp"
@@ -17,18 +18,6 @@ namespace {
 void add_nodes(const EntityMesh& entity) {
   if (!entity.node_tags.empty())
     ::gmsh::model::mesh::addNodes(entity.dim, entity.tag, entity.node_tags, entity.xyz, entity.uv);
-}
-
-/// All types in one call: each call makes Gmsh number all nodes of the model again.
-void add_elements(const EntityMesh& entity) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags, nodes;
-  for (const ElementBlock& block : entity.blocks) {
-    types.push_back(block.type);
-    tags.push_back(block.tags);
-    nodes.push_back(block.nodes);
-  }
-  if (!types.empty()) ::gmsh::model::mesh::addElements(entity.dim, entity.tag, types, tags, nodes);
 }
 
 /// For each entity, the others whose elements use nodes that it owns.
@@ -62,7 +51,7 @@ void clear_and_refill(const ModelMesh& mesh, const std::vector<Replacement>& rep
     to_clear.emplace_back((*it)->dim, (*it)->tag);
   ::gmsh::model::mesh::clear(to_clear);
   for (const EntityMesh* entity : refill) add_nodes(*entity);
-  for (const EntityMesh* entity : refill) add_elements(*entity);
+  add_elements(refill);
 }
 
 }  // namespace
