@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "qmorph/convert.hpp"
@@ -79,5 +80,6 @@ TEST_CASE("random domains rolled onto cylinders and cones are worth what they ar
   }
   CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
   CHECK(double(bent.quads) == doctest::Approx(double(flat.quads)).epsilon(0.02));
-  CHECK(bent.share() <= flat.share() * 1.02 + 0.002);
+  const double scatter = 0.002 * std::sqrt(300 / double(seeds(300)));
+  CHECK(bent.share() <= flat.share() * 1.02 + scatter);
 }
