@@ -1,4 +1,4 @@
-#include "cli/progress.hpp"
+#include "cli/messages/progress.hpp"
 
 #include <doctest/doctest.h>
 
