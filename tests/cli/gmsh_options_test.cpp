@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What people write after gmsh in their Makefiles.
 
 #include "cli/request/gmsh_options.hpp"

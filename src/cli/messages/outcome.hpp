@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What is told of a run: what came out, what is left, what made no difference.
 

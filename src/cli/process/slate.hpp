@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What the process that works leaves to the one that waits for it, in memory that both have.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/process/standard_streams.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The standard streams of the process: whose they are, and whether they took what was written.
 

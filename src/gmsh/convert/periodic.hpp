@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Surfaces that are images of one another. The image of a converted surface is its copy, so that the pair stays a pair.
 
