@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cli/progress.hpp"
+#include "cli/messages/progress.hpp"
 
 #include <doctest/doctest.h>
 
