@@ -247,7 +247,9 @@ std::map<int, Patch> read_reference(const Request& request) {
   adapter::check_readable(request.against);
   const adapter::Session session(request.gmsh_arguments);
   adapter::open_model(request.against, {.no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
-  return session::read_surfaces();
+  std::map<int, Patch> surfaces = session::read_surfaces();
+  if (surfaces.empty()) throw InputError(fmt::format("--against {}: it has no mesh of surfaces to measure by", request.against));
+  return surfaces;
 }
 
 int check_file(const Call& call) {
