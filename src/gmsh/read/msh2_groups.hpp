@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Files of MSH 2 whose elements of one elementary tag are in several physical groups. Gmsh knows groups of entities
 /// only: it would put all these elements in all the groups, and write each once for each group.

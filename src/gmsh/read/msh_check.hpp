@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The inside of `check_msh_file`: sections of the versions, one after another. Everything that Gmsh's readers take for granted is
 /// looked at: how many there are of what, that numbers stand for something that is there, that types exist.

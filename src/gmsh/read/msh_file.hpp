@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What a .msh file says of itself, read without Gmsh: Gmsh takes what it gets of a file that contradicts itself, and
 /// says something only sometimes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A .msh file as what it consists of: lines, and numbers, which are text or bytes.
 

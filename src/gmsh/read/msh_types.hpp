@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The element types of MSH, without asking Gmsh, which crashes on numbers that mean nothing.
 
