@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The program itself, as a Makefile calls it.
 
 #include <doctest/doctest.h>

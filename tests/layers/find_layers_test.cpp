@@ -186,6 +186,29 @@ TEST_CASE("layers: where the wall ends in a sharp corner, an odd number of trian
   }
 }
 
+TEST_CASE("layers: of one row with four nodes more on one side, two stretches between two of these are lost at most") {
+  constexpr Index kCells = 60;
+  const std::set<Index> more = {10, 20, 29, 39};
+  Patch patch;
+  Index below = 0, above = 1;
+  patch.points = {{0, 0, 0}, {0, 1, 0}};
+  const auto add = [&](const Vector3d& point) { return patch.points.push_back(point), Index(patch.points.size() - 1); };
+  for (Index i = 0; i < kCells; ++i) {
+    if (more.contains(i)) {
+      const Index middle = add({3 * i + 1.5, 1, 0});
+      patch.triangles.push_back({below, middle, above});
+      above = middle;
+    }
+    const Index next_below = add({3.0 * i + 3, 0, 0}), next_above = add({3.0 * i + 3, 1, 0});
+    patch.triangles.insert(patch.triangles.end(), {{below, next_below, above}, {next_below, next_above, above}});
+    below = next_below, above = next_above;
+  }
+  const auto [mesh, report] = qmorph::convert(patch);
+  const auto broken = qmorph::test::broken_invariants(patch, mesh);
+  CHECK_MESSAGE(broken.empty(), broken.front());
+  CHECK(report.layer_quads >= kCells - 2 * 12);
+}
+
 TEST_CASE("layers: without the option there are none") {
   const Patch patch = grid(8, 6, rectangles(10, 1));
   qmorph::Options options;

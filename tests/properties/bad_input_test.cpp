@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Patches that the engine must refuse, with a message that says where.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Gmsh's life time, its options and its way of saying that something went wrong.
 
