@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "cli/files/scene.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "report/page.hpp"
 #include "report/picture.hpp"
 #include "report/views.hpp"

@@ -26,7 +26,7 @@ void print_outcome(const ModelReport& model, const std::string& output, std::ost
     err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::left),
                        model.surfaces.size(), left);
   else if (model.count(SurfaceOutcome::converted) == 0)
-    err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has the mesh as it was\n";
+    err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has them\n";
 }
 
 /// What parity forces is no failure, and there is something to do about it.

@@ -17,7 +17,7 @@
 #include "gmsh/model/periodic_links.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/read/guest_model.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/read/readable.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "gmsh/read/msh2_groups.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/msh2_groups.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/views/views.hpp"
 
 namespace qmorph::adapter {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <exception>
 #include <new>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "gmsh/session/compat.hpp"
@@ -83,10 +85,13 @@ StageLog run_logged(const std::function<void()>& stage) {
 
 std::string first_errors(const StageLog& log) {
   if (log.errors.empty()) return "no reason given";
+  std::vector<std::string> different;
+  std::set<std::string_view> seen;
+  for (const std::string& error : log.errors)
+    if (seen.insert(error).second) different.push_back(error);
   std::string text;
-  for (std::size_t i = 0; i < log.errors.size() && i < kErrorsToShow; ++i) text += (i ? "; " : "") + log.errors[i];
-  if (log.errors.size() > kErrorsToShow)
-    text += " (and " + std::to_string(log.errors.size() - kErrorsToShow) + " more)";
+  for (std::size_t i = 0; i < different.size() && i < kErrorsToShow; ++i) text += (i ? "; " : "") + different[i];
+  if (different.size() > kErrorsToShow) text += " (and " + std::to_string(different.size() - kErrorsToShow) + " more)";
   return text;
 }
 

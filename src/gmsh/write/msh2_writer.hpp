@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gmsh/read/msh2_groups.hpp"
+#include "gmsh/read/msh/msh2_groups.hpp"
 
 namespace qmorph::adapter {
 

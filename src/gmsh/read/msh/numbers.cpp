@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/read/msh_numbers.hpp"
+#include "gmsh/read/msh/numbers.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

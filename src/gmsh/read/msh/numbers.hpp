@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 
 namespace qmorph::adapter {
 

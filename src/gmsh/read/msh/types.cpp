@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/read/msh_types.hpp"
+#include "gmsh/read/msh/types.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/read/msh2_text.hpp"
+#include "gmsh/read/msh/msh2_text.hpp"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "gmsh/read/msh_check.hpp"
-#include "gmsh/read/msh_types.hpp"
+#include "gmsh/read/msh/check.hpp"
+#include "gmsh/read/msh/types.hpp"
 
 namespace qmorph::adapter {
 namespace {

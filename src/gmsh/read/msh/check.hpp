@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "gmsh/read/msh_file.hpp"
-#include "gmsh/read/msh_numbers.hpp"
+#include "gmsh/read/msh/file.hpp"
+#include "gmsh/read/msh/numbers.hpp"
 
 namespace qmorph::adapter {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/read/msh2_groups.hpp"
+#include "gmsh/read/msh/msh2_groups.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "gmsh/read/msh_check.hpp"
-#include "gmsh/read/msh_types.hpp"
+#include "gmsh/read/msh/check.hpp"
+#include "gmsh/read/msh/types.hpp"
 
 namespace qmorph::adapter {
 namespace {

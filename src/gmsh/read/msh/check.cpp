@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/read/msh_check.hpp"
+#include "gmsh/read/msh/check.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "gmsh/read/msh_types.hpp"
+#include "gmsh/read/msh/types.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "gmsh/read/msh_check.hpp"
-#include "gmsh/read/msh_numbers.hpp"
+#include "gmsh/read/msh/check.hpp"
+#include "gmsh/read/msh/numbers.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
