@@ -42,7 +42,7 @@ std::string describe_lost_size(const std::vector<DirectedSize>& sizes) {
   const DirectedSize size = median(sizes);
   if (largest_ratio(size) <= kLargestSizeRatio) return {};
   return fmt::format(
-      "its quads are {:.1f} times as long as its triangles in the direction in which these are longest, and {:.1f} times in "
+      "its quads are {:.2f} times as long as its triangles in the direction in which these are longest, and {:.2f} times in "
       "the other (medians)",
       size.along, size.across);
 }
