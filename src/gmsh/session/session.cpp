@@ -41,6 +41,7 @@ Session::Session(const std::vector<std::string>& arguments) {
   argv.push_back(nullptr);
   // No configuration files: the same input and options give the same mesh for every user.
   ::gmsh::initialize(static_cast<int>(words.size()), argv.data(), false);
+  complaint_ = get_last_error();
   take_control();
 }
 
