@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "chart/rework.hpp"
 #include "chart/windows.hpp"
@@ -109,6 +110,8 @@ bool thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vec
   std::vector<Index> goes_into(mesh.points.size(), kNone);
   std::vector<char> waiting(mesh.points.size(), 0);
   for (const Merge& merge : merges) goes_into[merge.from] = merge.into, waiting[merge.from] = 1;
+  std::vector<Index> stays(mesh.points.size());  // where interfaces run now
+  std::iota(stays.begin(), stays.end(), 0);
   bool changed = false;
   while (true) {
     const std::vector<Index> opposite = opposite_sides(mesh);
@@ -125,11 +128,7 @@ bool thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vec
         goes_into[from] = kNone;
         const auto at = std::find(piece.vertex.begin(), piece.vertex.end(), into);
         if (at == piece.vertex.end() || !merge_in(work.mesh, v, Index(at - piece.vertex.begin()))) continue;
-        for (auto& [a, b] : interface) {
-          if (a == from) a = into;
-          if (b == from) b = into;
-          if (a > b) std::swap(a, b);
-        }
+        stays[from] = into;
         merged = true;
       }
       if (!merged) continue;
@@ -139,6 +138,11 @@ bool thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vec
     }
     mesh = replace(mesh, results);
   }
+  const auto stays_at = [&](Index v) {
+    while (stays[v] != v) v = stays[v];
+    return v;
+  };
+  for (Edge& edge : interface) edge = std::minmax(stays_at(edge.first), stays_at(edge.second));
   std::erase_if(interface, [](const Edge& edge) { return edge.first == edge.second; });
   sort_unique(interface);
   return changed;
