@@ -88,9 +88,10 @@ struct Pairing {
 
 class Strips {
  public:
-  explicit Strips(Cells& cells) : cells_(cells), sides_(cells.sides()), short_(sides_.count() / 3), path_of_(short_.size(), kNone) {
-    for (Index t = 0; t < short_.size(); ++t) short_[t] = short_side(cells_, t);
-    for (Index t = 0; t < short_.size(); ++t)
+  Strips(Cells& cells, const std::vector<Index>& thin)
+      : cells_(cells), sides_(cells.sides()), short_(sides_.count() / 3, kNone), path_of_(short_.size(), kNone) {
+    for (Index t : thin) short_[t] = short_side(cells_, t);
+    for (Index t : thin)
       if (short_[t] != kNone && path_of_[t] == kNone) walk(t);
   }
 
@@ -254,7 +255,7 @@ class Gap {
 
 }  // namespace
 
-void take_strips(Cells& cells) { Strips(cells).take(); }
+void take_strips(Cells& cells, const std::vector<Index>& thin) { Strips(cells, thin).take(); }
 
 void fill_gaps(Cells& cells) {
   const Parts parts = free_parts(cells);
