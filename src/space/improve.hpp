@@ -17,7 +17,7 @@ struct Faults {
 
 /// A mesh that was made in charts of a region, by what it is in space: smoothed, its poor elements raised, those that are turned
 /// over mended. Boundary, fixed nodes and edges on creases stay. `creases` are edges of the mesh, lower node first, sorted.
-Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases,
-                           const chart::CurvedRegion& region, const SmoothingOptions& options);
+Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
+               const SmoothingOptions& options);
 
 }  // namespace qmorph::space

@@ -80,7 +80,26 @@ TEST_CASE("layers: a grid of long rectangles is one, whichever way they are cut"
 
 TEST_CASE("layers: squares and rectangles of 2 to 1 are no layers") {
   for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
-    for (const double length : {0.5, 1.0, 2.0}) CHECK(layer_quads(grid(10, 10, rectangles(length, 1), diagonals)) == 0);
+    for (const double length : {0.5, 1.0, 2.0})
+      for (const double size : {1.0, 0.1, 1.0 / 3}) {
+        CAPTURE(int(diagonals));
+        CAPTURE(length);
+        CAPTURE(size);
+        CHECK(layer_quads(grid(10, 10, rectangles(length * size, size), diagonals)) == 0);
+      }
+}
+
+TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short cells is none") {
+  for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
+    for (const double lean : {-1.0, 0.5, 1.0}) {
+      const auto leaning = [&](double length) {
+        return [=](Index i, Index j) { return Vector3d(length * i + lean * j, j, 0); };
+      };
+      CAPTURE(int(diagonals));
+      CAPTURE(lean);
+      CHECK(whole_cells(grid(10, 8, leaning(10), diagonals), 10, 8) == 80);
+      CHECK(layer_quads(grid(10, 8, leaning(1), diagonals)) == 0);
+    }
 }
 
 TEST_CASE("layers: equilateral triangles are none, however they are stretched") {
