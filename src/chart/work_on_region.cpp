@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/work_on_region.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "chart/interfaces.hpp"
+#include "chart/irregular_nodes.hpp"
 #include "chart/topology.hpp"
+#include "chart/window_work.hpp"
 #include "chart/windows.hpp"
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "qmorph/error.hpp"
 #include "space/improve.hpp"
 
 namespace qmorph::chart {
@@ -18,7 +22,11 @@ namespace {
 
 /// Faces of a chart: larger ones cost more than they are worth.
 constexpr std::size_t kMostOfChart = 60'000;
-constexpr WindowSize kCleaningWindow{8, 5, 800};
+constexpr WindowSize kCleaningWindow{8, 5, 800, true};
+constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
+
+using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options,
+                                         const space::Background& background);
 
 class Worker {
  public:
@@ -33,12 +41,28 @@ class Worker {
     divide_region();
     work_on_parts();
     clean_interfaces();
-    work_.mesh = space::improve(std::move(mesh_), creases_, region_, options_.smoothing);
+    work_.mesh = improved();
     return std::move(work_);
   }
 
  private:
   const space::Background& background() const { return *region_.background; }
+
+  SurfaceMesh improve(SurfaceMesh mesh) const {
+    return space::improve(std::move(mesh), creases_, region_, options_.smoothing);
+  }
+
+  /// What is valid in a window may have no valid place in space.
+  SurfaceMesh improved() {
+    const SurfaceMesh before = mesh_;
+    if (task_ == Task::convert && cancel_irregular_nodes()) {
+      try {
+        return improve(std::move(mesh_));
+      } catch (const SurfaceError&) {
+      }
+    }
+    return improve(before);
+  }
 
   void divide_region() {
     opposite_ = opposite_sides(mesh_);
@@ -118,19 +142,41 @@ class Worker {
     if (interface_.empty()) return;
     std::vector<char> waiting(mesh_.points.size(), 0);
     for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
+    work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
+  }
+
+  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they cost more than they are worth.
+  bool cancel_irregular_nodes() {
+    constexpr int kPasses = 3;  // those that are gone make room for others to cancel
+    constexpr std::size_t kLarge = 20'000;
+    bool changed = false;
+    for (int pass = 0; pass < kPasses && mesh_.faces.size() < kLarge; ++pass) {
+      std::vector<char> irregular = irregular_nodes(mesh_, creases_);
+      const auto count = std::count(irregular.begin(), irregular.end(), 1);
+      if (double(count) < kFewIrregular * double(mesh_.faces.size())) break;
+      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window)) break;
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// True if a window has changed.
+  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+    bool changed = false;
     while (true) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
       const std::vector<Window> windows =
-          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), kCleaningWindow, waiting);
-      if (windows.empty()) return;
-      std::vector<std::optional<Reworked>> cleaned(windows.size());
+          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
+      if (windows.empty()) return changed;
+      std::vector<std::optional<Reworked>> reworked(windows.size());
       parallel::for_each_index(windows.size(), [&](std::size_t w) {
-        cleaned[w] = clean_window(*windows[w].laid_out, options_, background());
+        reworked[w] = work(*windows[w].laid_out, options_, background());
       });
       std::vector<Reworked> results;
-      for (auto& window : cleaned)
+      for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));
+      changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
   }

@@ -5,6 +5,7 @@
 #include "qmorph/error.hpp"
 #include "space/faults.hpp"
 #include "space/repair.hpp"
+#include "space/settle.hpp"
 #include "space/smooth.hpp"
 
 namespace qmorph::space {
@@ -33,6 +34,7 @@ chart::SurfaceMesh improve(chart::SurfaceMesh mesh, const std::vector<chart::Edg
   {
     MeshOnSurface view(mesh, creases, surface, *region.background);
     smooth(view, options);
+    settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
     if (find_poor(view, 0).empty()) return mesh;
   }
