@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "chart/attempts.hpp"
 #include "chart/collect.hpp"
-#include "chart/work_on_region.hpp"
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
@@ -29,7 +29,7 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     own.progress = progress[r];
     const double most = part_of(allowed, double(regions[r].region.triangles.size()), total, regions.size());
     try {
-      works[r] = work_on_region(regions[r], own, most, task);
+      works[r] = best_of_attempts(regions[r], own, most, task);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = 1;

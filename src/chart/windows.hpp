@@ -14,6 +14,7 @@ struct WindowSize {
   int reach;         ///< faces from the nodes, in steps across sides
   int margin;        ///< nodes that are so many steps inside are done
   std::size_t most;  ///< faces of a window
+  bool apart = false;  ///< a window waits until no other one is nearer to its middle than the margin
 };
 
 /// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window has them well

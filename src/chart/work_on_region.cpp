@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "chart/interfaces.hpp"
+#include "chart/irregular_nodes.hpp"
 #include "chart/pair_up.hpp"
 #include "chart/refine.hpp"
 #include "chart/topology.hpp"
+#include "chart/window_work.hpp"
 #include "chart/windows.hpp"
 #include "engine/allowance.hpp"
 #include "geometry/describe.hpp"
@@ -23,7 +25,11 @@ namespace {
 
 /// Faces of a chart: larger ones cost more than they are worth.
 constexpr std::size_t kMostOfChart = 60'000;
-constexpr WindowSize kCleaningWindow{8, 5, 800};
+constexpr WindowSize kCleaningWindow{8, 5, 800, true};
+constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
+
+using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options,
+                                         const space::Background& background);
 
 /// Where a try has failed, by triangle of the region.
 struct Distrust {
@@ -49,8 +55,7 @@ class Worker {
     divide_region();
     work_on_parts();
     clean_interfaces();
-    faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
-    return !find_fault();
+    return cancels_and_improves() || improves();
   }
 
   RegionWork result() {
@@ -98,6 +103,20 @@ class Worker {
   void start() {
     mesh_ = region_.start();
     if (distrust_.nodes) mesh_ = refined(mesh_, region_.creases);
+  }
+
+  bool improves() {
+    faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
+    return !find_fault();
+  }
+
+  /// What is valid in a window may have no valid place in space: then nothing has changed.
+  bool cancels_and_improves() {
+    if (task_ != Task::convert) return false;
+    SurfaceMesh before = mesh_;
+    if (cancel_irregular_nodes() && improves()) return true;
+    mesh_ = std::move(before);
+    return false;
   }
 
   void divide_region() {
@@ -221,19 +240,41 @@ class Worker {
     std::vector<char> waiting = std::move(needs_cleaning_);
     waiting.resize(mesh_.points.size(), 0);
     for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
+    work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
+  }
+
+  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they cost more than they are worth.
+  bool cancel_irregular_nodes() {
+    constexpr int kPasses = 3;  // those that are gone make room for others to cancel
+    constexpr std::size_t kLarge = 20'000;
+    bool changed = false;
+    for (int pass = 0; pass < kPasses && mesh_.faces.size() < kLarge; ++pass) {
+      std::vector<char> irregular = irregular_nodes(mesh_, creases_);
+      const auto count = std::count(irregular.begin(), irregular.end(), 1);
+      if (double(count) < kFewIrregular * double(mesh_.faces.size())) break;
+      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window)) break;
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// True if a window has changed.
+  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+    bool changed = false;
     while (true) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
       const std::vector<Window> windows =
-          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), kCleaningWindow, waiting);
-      if (windows.empty()) return;
-      std::vector<std::optional<Reworked>> cleaned(windows.size());
+          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
+      if (windows.empty()) return changed;
+      std::vector<std::optional<Reworked>> reworked(windows.size());
       parallel::for_each_index(windows.size(), [&](std::size_t w) {
-        cleaned[w] = clean_window(*windows[w].laid_out, options_, background());
+        reworked[w] = work(*windows[w].laid_out, options_, background());
       });
       std::vector<Reworked> results;
-      for (auto& window : cleaned)
+      for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));
+      changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
   }

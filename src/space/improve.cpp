@@ -4,6 +4,7 @@
 #include "engine/regions.hpp"
 #include "space/faults.hpp"
 #include "space/repair.hpp"
+#include "space/settle.hpp"
 #include "space/smooth.hpp"
 
 namespace qmorph::space {
@@ -40,6 +41,7 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
   {
     MeshOnSurface view(mesh, creases, surface, *region.background);
     smooth(view, options);
+    settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
     if (find_poor(view, 0).empty()) return {{}, doubtful_faces(view)};
   }
