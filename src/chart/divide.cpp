@@ -82,18 +82,18 @@ class Dividing {
 
   /// Accepts a part, or cuts it and returns what it falls into.
   std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
-    const Piece piece(mesh_, opposite_, division_.is_cut, faces);
-    std::unique_ptr<LaidOut> part;
-    if (double(faces.size()) <= kTooLarge * most_ && is_planar_topology(piece) && !is_round(piece)) {
-      part = lay_out(faces);
-      const bool good = is_good(*part);
-      if (!good) part = open(faces, piece);
-      if (part && is_good(*part)) return finish(faces, std::move(part));
+    Piece piece(mesh_, opposite_, division_.is_cut, faces);
+    if (double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece)) {
+      auto smaller = cut(faces, piece);
+      if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
+      return smaller;
     }
-    auto smaller = cut(faces, piece);
-    if (!smaller.empty()) return smaller;
-    accept(faces, lay_out(faces));
-    return {};
+    auto part = std::make_unique<LaidOut>(std::move(piece));
+    if (is_good(*part)) return finish(faces, std::move(part));
+    if (auto opened = open(faces, part->piece)) return finish(faces, std::move(opened));
+    auto smaller = cut(faces, part->piece);
+    if (smaller.empty()) accept(faces, std::move(part));
+    return smaller;
   }
 
   void set_cut(Index side, bool cut) { division_.is_cut[side] = division_.is_cut[opposite_[side]] = cut; }

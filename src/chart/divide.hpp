@@ -15,6 +15,7 @@ struct LaidOut {
   LaidOut(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_cut,
           const std::vector<Index>& faces)
       : piece(mesh, opposite, is_cut, faces), chart(piece) {}
+  explicit LaidOut(Piece&& its_piece, int rounds = kAllRounds) : piece(std::move(its_piece)), chart(piece, rounds) {}
 };
 
 struct Division {

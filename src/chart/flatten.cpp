@@ -17,9 +17,10 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// A triangle is taken to be at least this times as high as long: without height it has no direction.
 constexpr double kLeastHeight = 1e-3;
-constexpr int kMostRounds = 30;
 /// Rounds end when one lowers the energy by less than this share of it.
 constexpr double kLeastGain = 0.02;
+/// With less energy than this a triangle, a thousandth of lengths, the surface unrolls, and no round is worth its time.
+constexpr double kFlatEnough = 1e-6;
 /// Points go so many times as far as a round takes them: fewer rounds do.
 constexpr double kOvershoot = 1.7;
 /// A triangle with a smaller sine is as bad as one that is turned over.
@@ -87,11 +88,11 @@ class Flattening2D {
   }
 
   /// All points at one place if numbers are too small for more.
-  std::vector<Vec2> run() {
+  std::vector<Vec2> run(int rounds) {
     if (solver_.info() != Eigen::Success) return std::move(points_);
     solve();
     double energy = turn();
-    for (int round = 1; round < kMostRounds; ++round) {
+    for (int round = energy > kFlatEnough * double(shapes_.size()) ? 1 : rounds; round < rounds; ++round) {
       const std::vector<Vec2> before = points_;
       solve();
       for (std::size_t v = 0; v < points_.size(); ++v) points_[v] = before[v] + kOvershoot * (points_[v] - before[v]);
@@ -99,7 +100,7 @@ class Flattening2D {
       if (!(now < (1 - kLeastGain) * energy)) break;
       energy = now;
     }
-    solve();
+    if (energy > kFlatEnough * double(shapes_.size())) solve();
     for (Vec2& p : points_) p *= unit_;
     return std::move(points_);
   }
@@ -260,9 +261,9 @@ void measure_distortion(const space::Background& surface, Flattening& flattening
   flattening.scaling = high(factors);
 }
 
-Flattening flatten(const space::Background& surface, std::size_t points) {
+Flattening flatten(const space::Background& surface, std::size_t points, int rounds) {
   Flattening flattening;
-  flattening.points = Flattening2D(surface, points).run();
+  flattening.points = Flattening2D(surface, points).run(rounds);
   measure_distortion(surface, flattening);
   if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, flattening);
   return flattening;

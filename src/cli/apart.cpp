@@ -54,10 +54,11 @@ class SharedSlate {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that is not allowed to grow becomes an error
-  const Process process{.err_is_terminal = ::isatty(STDERR_FILENO) == 1, .slate = &slate};
+  const Process process{.err_is_terminal = ::isatty(STDERR_FILENO) == 1, .slate = &slate, .gmsh_home = directory.path()};
   const int err = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (!directory.path().empty()) {
     ::setenv("TMPDIR", directory.path().c_str(), 1);
+    ::setenv("GMSH_HOME", directory.path().c_str(), 1);  // what -string says goes through a file there
     const int said = ::open(directory.foreign_words().c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
     if (said >= 0 && err >= 0) ::dup2(said, STDERR_FILENO);
   }

@@ -37,6 +37,7 @@ int run_with_streams(Request request, const std::vector<std::string>& arguments,
     request.input = input->path();
     err.call(request.input, "standard input");
   }
+  if (!process.gmsh_home.empty()) err.call(process.gmsh_home + "/.gmsh-tmp", "-string");
   const Call call{request, arguments, out, err, process};
   if (request.check) return check_file(call);
   if (!request.to_stdout) return convert_file(call);

@@ -26,6 +26,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 adapter::OutputPlan check_places(const Request& request) {
   adapter::check_readable(request.input);
   for (const std::string& file : request.merged) adapter::check_readable(file);
+  for (const std::string& file : request.option_files) adapter::check_readable(file);
   std::vector<std::pair<std::string, std::string>> taken{{request.input, "the input"}};
   for (const auto& [option, path] : side_files(request)) {
     for (const auto& [other, what] : taken)

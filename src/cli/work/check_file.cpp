@@ -35,7 +35,7 @@ ModelReport measure(const Call& call) {
   const StdoutAsStderr redirected;
   const std::map<int, Patch> before = read_reference(call.request);
   adapter::Session session(call.request.gmsh_arguments);
-  if (call.process.slate) session.leave();
+  begin_session(call, session);
   open_as_it_is(call);
   return session::measure_surfaces(call.request.surfaces, before);
 }

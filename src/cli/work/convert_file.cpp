@@ -72,7 +72,7 @@ class Conversion {
 int Conversion::run() {
   const StdoutAsStderr redirected;
   adapter::Session session(request_.gmsh_arguments);
-  if (call_.process.slate) session.leave();
+  begin_session(call_, session);
   open();
   make_quads();
   if (model_.surfaces.empty()) {

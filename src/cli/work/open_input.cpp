@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/work/open_input.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "cli/process/reading_limits.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/session/session.hpp"
+#include "qmorph/error.hpp"
 
 namespace qmorph::cli {
 namespace {
@@ -32,6 +34,18 @@ adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) 
 }
 
 }  // namespace
+
+void begin_session(const Call& call, adapter::Session& session) {
+  if (!call.process.slate) return;
+  session.leave();
+  const std::string& complaint = session.complaint();
+  if (complaint.empty()) return;
+  if (complaint.rfind("Unknown", 0) != 0) throw InputError("the options cannot be understood: " + complaint);
+  const std::vector<std::string>& named = call.request.option_names;  // which have a warning of their own
+  if (std::none_of(named.begin(), named.end(),
+                   [&](const std::string& name) { return complaint.find(name) != std::string::npos; }))
+    call.warn(complaint);
+}
 
 adapter::OpenedModel open_as_it_is(const Call& call) {
   const Request& request = call.request;
