@@ -8,6 +8,7 @@
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
+#include "engine/stretch.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
 
@@ -20,7 +21,7 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
                               std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}, 0};
   if (!plane) return chart::convert_curved(patch, options, allowed, stuck);
-  const Surface surface(patch, *plane);
+  const Surface surface(patch, options.layers ? unstretched(*plane, patch) : *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);
   const auto work = [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {

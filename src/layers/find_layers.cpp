@@ -120,7 +120,8 @@ class Writer {
 
 void drop_cells_at(Cells& cells, const std::vector<bool>& nodes) {
   for (Index i = 0; i < cells.size(); ++i)
-    if (cells.is_live(i) && std::any_of(cells[i].nodes.begin(), cells[i].nodes.end(), [&](Index v) { return nodes[v]; }))
+    if (cells.is_live(i) &&
+        std::any_of(cells[i].nodes.begin(), cells[i].nodes.end(), [&](Index v) { return nodes[v]; }))
       cells.drop(i);
 }
 

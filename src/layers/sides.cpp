@@ -31,7 +31,9 @@ ByLowerNode sort_by_lower_node(const Patch& patch) {
   for_each_entry([&](Index a, Index b, Index) { ++list.first[std::min(a, b) + 2]; });
   for (std::size_t v = 2; v < list.first.size(); ++v) list.first[v] += list.first[v - 1];
   list.entries.resize(list.first.back());
-  for_each_entry([&](Index a, Index b, Index c) { list.entries[list.first[std::min(a, b) + 1]++] = {std::max(a, b), c}; });
+  for_each_entry([&](Index a, Index b, Index c) {
+    list.entries[list.first[std::min(a, b) + 1]++] = {std::max(a, b), c};
+  });
   return list;
 }
 

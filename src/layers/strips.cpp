@@ -51,8 +51,8 @@ double skew_of(const Cell& cell) {
 
 /// One of the two ways to make a column of triangles into pairs.
 struct Pairing {
-  std::vector<Cell> cells;  ///< those that are long and not too askew
-  double skew = 0;          ///< the mean of all
+  std::vector<Cell> cells;   ///< those that are long and not too askew
+  double skew = 0;           ///< the mean of all
   std::size_t compared = 0;  ///< how many that is
 
   void add(double off) { skew += (off - skew) / double(++compared); }
@@ -171,7 +171,8 @@ class Strips {
       const double off = skew_of(cell);
       path.pairings[i % 2].add(off);
       if (!is_link(diagonal)) break;
-      if (off <= kLeaning && cell.aspect() >= (off <= kMisfit ? kNearIsotropic : kLeaningLong)) path.pairings[i % 2].cells.push_back(cell);
+      if (off <= kLeaning && cell.aspect() >= (off <= kMisfit ? kNearIsotropic : kLeaningLong))
+        path.pairings[i % 2].cells.push_back(cell);
       c = sides_.opposite(diagonal);
       if (c / 3 == begin) break;
     }
@@ -208,7 +209,8 @@ class Strips {
       columns.push_back(column_above(sides_, cells_[i]));
       columns.push_back(column_below(sides_, cells_[i]));
     }
-    std::erase_if(columns, [&](const Column& column) { return column.base == kNone || cells_.is_taken(column.base / 3); });
+    std::erase_if(columns,
+                  [&](const Column& column) { return column.base == kNone || cells_.is_taken(column.base / 3); });
     march(cells_, columns);
   }
 

@@ -41,14 +41,16 @@ class Places {
     (high - low).maxCoeff(&axis);
     const std::size_t root = (first + last) / 2;
     const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(first), at(root), at(last), [&](Index a, Index b) { return places[a][axis] < places[b][axis]; });
+    std::nth_element(at(first), at(root), at(last),
+                     [&](Index a, Index b) { return places[a][axis] < places[b][axis]; });
     axis_[root] = int(axis);
     build(places, first, root);
     build(places, root + 1, last);
   }
 
   template <class Visit>
-  void search(std::size_t first, std::size_t last, const Vector3d& low, const Vector3d& high, const Visit& visit) const {
+  void search(std::size_t first, std::size_t last, const Vector3d& low, const Vector3d& high,
+              const Visit& visit) const {
     const auto look = [&](std::size_t i) {
       if ((sorted_[i].array() >= low.array()).all() && (sorted_[i].array() <= high.array()).all())
         visit(order_[i], sorted_[i]);
@@ -95,7 +97,8 @@ std::vector<Index> locate(const std::vector<Vector3d>& places, const std::vector
   std::vector<Index> found(places.size(), kNone);
   std::vector<double> best(places.size(), kReach);
   for (Index q = 0; q < quads.size(); ++q) {
-    const Vector3d &a = points[quads[q][0]], &b = points[quads[q][1]], &c = points[quads[q][2]], &d = points[quads[q][3]];
+    const Vector3d &a = points[quads[q][0]], &b = points[quads[q][1]], &c = points[quads[q][2]],
+                   &d = points[quads[q][3]];
     Vector3d low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d)), high = a.cwiseMax(b).cwiseMax(c.cwiseMax(d));
     const double longest = (high - low).maxCoeff();
     low.array() -= kReach * longest;

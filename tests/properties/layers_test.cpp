@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "quality/directed_size.hpp"
 #include "qmorph/convert.hpp"
 #include "support/domains.hpp"
 #include "support/draft.hpp"
@@ -196,4 +197,34 @@ TEST_CASE("layers: ordinary random domains have hardly any") {
     layer_quads += qmorph::convert(patch, options).report.layer_quads;
   }
   CHECK(double(layer_quads) < 0.02 * double(triangles));  // strips and ribbons are among them
+}
+
+TEST_CASE("stretched triangles: what is no layer becomes quads of the same sizes, as stretched as the triangles") {
+  std::size_t flat_quads = 0, quads = 0, flat_kept = 0, kept = 0;
+  const auto is_kept = [](const qmorph::Patch& before, const QuadMesh& after) {
+    return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <= qmorph::kLargestSizeRatio;
+  };
+  for (std::uint64_t seed = 0; seed < seeds(60); ++seed) {
+    const auto domain = qmorph::test::random_domain(seed);
+    qmorph::test::Rng rng(seed);
+    const double angle = rng.between(0, 3), stretch = std::pow(10, rng.between(1, 3));
+    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0);
+    qmorph::Patch patch = domain.patch;
+    for (Eigen::Vector3d& p : patch.points) p += (stretch - 1) * p.dot(along) * along;
+    qmorph::Options options;
+    options.retry_triangles = 0;
+    const auto flat = qmorph::convert(domain.patch, options).mesh;
+    const auto mesh = qmorph::convert(patch, options).mesh;
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    CAPTURE(stretch);
+    const auto broken = qmorph::test::broken_invariants(patch, mesh);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    flat_quads += flat.quads.size();
+    quads += mesh.quads.size();
+    flat_kept += is_kept(domain.patch, flat);
+    kept += is_kept(patch, mesh);
+  }
+  CHECK(double(kept) > 0.9 * double(flat_kept));
+  CHECK(double(quads) == doctest::Approx(double(flat_quads)).epsilon(0.1));
 }
