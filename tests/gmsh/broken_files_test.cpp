@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -207,6 +209,30 @@ TEST_CASE("broken files: what Gmsh writes is taken, whatever is in it") {
         make_msh(directory / "in.msh", version, binary, models[i]);
         CHECK(complaint(directory, read_file(directory / "in.msh")) == "");
       }
+}
+
+TEST_CASE("broken files: no node of a partitioned mesh of version 3 is taken for a partition") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 3.0, false, [] { build_two_squares(), ::gmsh::model::mesh::partition(3); });
+  const std::string whole = read_file(directory / "in.msh");
+  std::size_t changed = 0, line = whole.find('\n', whole.find("$Elements\n") + 10) + 1;  // behind the count
+  for (; whole[line] != '$'; line = whole.find('\n', line) + 1) {
+    std::istringstream in(whole.substr(line, whole.find('\n', line) - line));
+    const std::vector<std::string> words(std::istream_iterator<std::string>(in), {});
+    if (words[1] != "2" || words.size() < 8) continue;  // number, type, entity, how many follow: three nodes, partitions
+    for (std::size_t k = 4; k < 7; ++k) {
+      std::vector<std::string> wrong = words;
+      wrong[k] = "-1";
+      std::string text;
+      for (const std::string& word : wrong) text += word + ' ';
+      const std::string said =
+          complaint(directory, whole.substr(0, line) + text + whole.substr(whole.find('\n', line)));
+      CHECK(said.find("uses node -1") != std::string::npos);
+      ++changed;
+    }
+    if (changed > 30) break;
+  }
+  CHECK(changed > 30);
 }
 
 TEST_CASE("broken files: no word of a binary file can be changed so that the check itself goes astray") {

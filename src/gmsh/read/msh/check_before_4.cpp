@@ -132,8 +132,8 @@ void take_elements_of_3(MshState& state, long long count, Numbers& numbers) {
     if (words < nodes) state.in.fail(fmt::format("contradicts itself: element {} has {} nodes", element.number, words));
     check_element(state, element, numbers);
     state.in.require_room(words, 2, "nodes of an element");
-    for (long long k = 0; k < words - nodes; ++k) state.in.integer();  // partitions, parents
     check_element_nodes(state, element.number, nodes);
+    for (long long k = 0; k < words - nodes; ++k) state.in.integer();  // partitions, parents
   }
 }
 
