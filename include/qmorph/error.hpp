@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The one family of exceptions that the library throws. Each says what is wrong, where, and what to do, in a line for people
 /// and in fields for programs; none is thrown from inside the advancing front, where "this step is not possible here" is an

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The door for programs that already run the Gmsh API: `qmorph::gmsh::recombine()` in the place of
 /// `gmsh::model::mesh::recombine()`. Mentions no Gmsh type; link `qmorph::gmsh`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Every number of the algorithm that a caller may want to change. Angles are in radians, times in seconds; lengths are
 /// never absolute: they are relative to edges nearby, and have no unit.

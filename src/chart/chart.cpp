@@ -13,11 +13,11 @@ Eigen::Vector3d in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
 }  // namespace
 
-Chart::Chart(const Piece& piece)
+Chart::Chart(const Piece& piece, int rounds)
     : piece_(piece),
       barriers_(piece.barriers()),
       surface_(piece.points, piece.halves, barriers_),
-      flattening_(flatten(surface_, piece.points.size())),
+      flattening_(flatten(surface_, piece.points.size(), rounds)),
       half_at_(piece.points.size(), kNone) {
   for (Index t = 0; t < piece.halves.size(); ++t)
     for (Index v : piece.halves[t]) half_at_[v] = t;

@@ -3,18 +3,20 @@
 
 #include <utility>
 
-#include "chart/attempts.hpp"
 #include "chart/collect.hpp"
+#include "chart/attempts.hpp"
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "qmorph/error.hpp"
 #include "space/reference.hpp"
 
 namespace qmorph::chart {
 namespace {
 
 std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, double allowed,
-                                    Task task) {
+                                    Task task, std::vector<bool>* stuck) {
+  std::vector<char> is_stuck(regions.size(), 0);
   std::vector<RegionWork> works(regions.size());
   double total = 0;
   for (const CurvedRegion& region : regions) total += double(region.region.triangles.size());
@@ -26,9 +28,18 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     Options own = options;
     own.progress = progress[r];
     const double most = part_of(allowed, double(regions[r].region.triangles.size()), total, regions.size());
-    works[r] = best_of_attempts(regions[r], own, most, task);
+    try {
+      works[r] = best_of_attempts(regions[r], own, most, task);
+    } catch (const SurfaceError&) {
+      if (!stuck) throw;
+      is_stuck[r] = 1;
+      if (wants_stages(own)) works[r].stages.resize(kStages - 1);
+    }
   });
   shared.finish();
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    if (is_stuck[r])
+      for (Index v : regions[r].region.node) (*stuck)[v] = true;
   return works;
 }
 
@@ -51,8 +62,8 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 
 /// `kept` has those quads of the patch that stay.
 SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions,
-                           const Options& options, double allowed, Task task) {
-  std::vector<RegionWork> works = work_on_all(regions, options, allowed, task);
+                           const Options& options, double allowed, Task task, std::vector<bool>* stuck) {
+  std::vector<RegionWork> works = work_on_all(regions, options, allowed, task, stuck);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -69,8 +80,8 @@ SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& r
 
 }  // namespace
 
-SurfaceWork convert_curved(const Patch& patch, const Options& options, double allowed) {
-  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, allowed, Task::convert);
+SurfaceWork convert_curved(const Patch& patch, const Options& options, double allowed, std::vector<bool>* stuck) {
+  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, allowed, Task::convert, stuck);
 }
 
 SurfaceWork improve_curved(const Patch& patch, const Options& options, double allowed) {
@@ -78,7 +89,7 @@ SurfaceWork improve_curved(const Patch& patch, const Options& options, double al
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(halves, regions, options, allowed, Task::improve);
+  return work_on_curved(halves, regions, options, allowed, Task::improve, nullptr);
 }
 
 }  // namespace qmorph::chart

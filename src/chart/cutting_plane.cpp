@@ -21,7 +21,7 @@ constexpr double kSquare = 0.9;  ///< a sine from which on an end is no wedge
 /// A plane that has less than this of the wanted share behind it does not cut.
 constexpr double kLeastShare = 0.3;
 /// Costs are estimated from so many faces.
-constexpr std::size_t kSamples = 4096;
+constexpr std::size_t kSamples = 1500;
 
 struct Plane3 {
   Vector3d normal = Vector3d::UnitX();

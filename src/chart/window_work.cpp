@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/window_work.hpp"
 
-#include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "cleanup/replace_cavities.hpp"
 #include "engine/allowance.hpp"
@@ -27,32 +25,6 @@ struct Shapes {
     if (faces > 0) mean /= double(faces);
   }
 };
-
-/// Where the piece ends on both sides of a line, one node has two points there. An element may have got both, or two edges have become one.
-bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {
-  const auto node = [&](Index v) { return v < piece.points.size() ? piece.node[v] : kNone - 1 - v; };
-  std::vector<std::tuple<Index, Index, bool>> edges;  // nodes, whether it is boundary
-  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {
-    if (!mesh.is_live_half_edge(h)) continue;
-    const Index a = node(mesh.origin(h)), b = node(mesh.target(h)), low = std::min(a, b), high = std::max(a, b);
-    if (low == high) return true;
-    edges.emplace_back(low, high, mesh.is_boundary_edge(h));
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 1; k < edges.size(); ++k) {
-    const auto& [a, b, outer] = edges[k - 1];
-    const auto& [c, d, other_outer] = edges[k];
-    if (a == c && b == d && !(outer && other_outer)) return true;
-  }
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_quad(f) || !mesh.is_live_face(f)) continue;
-    const Index h = mesh.half_edge(f);
-    const Index a = node(mesh.origin(h)), b = node(mesh.target(h)), c = node(mesh.target(mesh.next(h)));
-    if (a == c || b == node(mesh.origin(mesh.prev(h)))) return true;
-  }
-  return false;
-}
-
 
 class WindowWork {
  public:

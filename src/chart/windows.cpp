@@ -86,9 +86,9 @@ class Taking {
   }
 
   std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) const {
-    const Piece piece(mesh_, opposite_, is_wall_, faces);
+    Piece piece(mesh_, opposite_, is_wall_, faces);
     if (loops_of(piece).size() != 1 || euler_characteristic(piece) != 1) return nullptr;
-    auto laid_out = std::make_unique<LaidOut>(mesh_, opposite_, is_wall_, faces);
+    auto laid_out = std::make_unique<LaidOut>(std::move(piece), kFewRounds);
     const Flattening& flattening = laid_out->chart.flattening();
     if (flattening.flipped > 0 || flattening.distortion > kMostDistortion) return nullptr;
     return laid_out;

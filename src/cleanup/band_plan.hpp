@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The best rows of quads between two polylines that must stay, by dynamic programming.
 

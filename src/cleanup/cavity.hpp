@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A disc of quads that is to be replaced, grown from one irregular node.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The quadrangulations of a ring with no irregular node inside, or with one: a grid between four corners; three or five grids
 /// around a node between three or five corners. Their sides determine them. [Bunin06]

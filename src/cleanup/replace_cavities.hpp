@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Irregular nodes that cancel each other over a distance: a disc of quads around them is replaced as a whole.
 

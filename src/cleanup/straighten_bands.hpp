@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Bands of one row between two boundaries (the air gap of a machine, a coating): nothing there can move, so only
 /// connectivity can take the skew out.

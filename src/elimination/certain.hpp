@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Eliminating two triangles without any search for positions: what is done when nothing better was found.
 

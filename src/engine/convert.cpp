@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "qmorph/convert.hpp"
 
 #include <algorithm>
@@ -14,11 +15,11 @@ namespace qmorph {
 namespace {
 
 /// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out of the
-/// result, and their nodes are marked in `stuck`; if that is null, or the surface is curved, they are an error.
+/// result, and their nodes are marked in `stuck`; if that is null, they are an error.
 SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options, double allowed,
                               std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}, 0};
-  if (!plane) return chart::convert_curved(patch, options, allowed);
+  if (!plane) return chart::convert_curved(patch, options, allowed, stuck);
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);

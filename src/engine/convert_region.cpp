@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/convert_region.hpp"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ class RegionConverter {
     start_ = kernel::Mesh(region_.points, region_.triangles, region_.open);
     for (Index v : region_.fixed) start_.set_fixed(v);
     if (wants_stages(options_)) input_ = start_;
-    repair_input(start_, plane_);
+    repair_input(start_, region_.node, plane_);
     grade_fans(start_);
   }
 

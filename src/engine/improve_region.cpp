@@ -102,7 +102,7 @@ kernel::Mesh make_anew(const ImproveStart& start, const Plane& plane, Pipeline& 
 ImproveStart start_improving(const Region& region, kernel::Mesh mesh, const Plane& plane, const Options& options) {
   ImproveStart start{region, std::move(mesh)};
   mend_quads(start.mesh, options.smoothing, plane);
-  repair_input(start.mesh, plane);
+  repair_input(start.mesh, region.node, plane);
   take_triangles(start.mesh, start.region);
   return start;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Quads that take part: a patch of triangles and quads becomes regions of triangles, and those become meshes of both.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/overlap.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ void require_single_cover(const Region& region, const Plane& plane) {
       if (++covers[t[i]] > 1)
         throw SurfaceError("the triangles around the node at " + describe(plane.to_space(p)) +
                                " overlap; mesh the surface anew or repair it",
-                           {.kind = ErrorKind::overlap, .place = plane.to_space(p)});
+                           {.kind = ErrorKind::overlap, .place = plane.to_space(p), .subject = node_row(region.node[t[i]])});
     }
 }
 

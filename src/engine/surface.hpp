@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What convert() and improve() have in common: a surface is laid into its plane, its regions are worked on one by one,
 /// and what they have become is put together.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The advancing front: which half-edges are on it, in which state, and which comes next.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What every step of the advancing front works on. A step either succeeds or reports that it did not; the driver
 /// runs each in a transaction of the mesh, so a step that gives up half-way has changed nothing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Exact signs. A decision that changes the mesh rests on these, never on an epsilon.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Plane vectors. Angles are in radians, counter-clockwise positive.
 

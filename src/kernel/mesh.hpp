@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Half-edge mesh of one region: faces of degree 3 and 4 (more for a moment, inside an operation), 32-bit indices,
 /// every edit O(1) or O(valence). The outside is linked too, so that going round a vertex needs no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Slots and transactions of the half-edge mesh. Slots of dead elements are used again, last first; a
 /// transaction keeps the old value of everything it touches, so that a rollback restores every bit,
 /// the free lists included.

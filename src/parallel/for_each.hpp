@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Work side by side. What comes out must never depend on how many threads there are or which is first: the pieces are cut
 /// the same way always, and none sees what another writes.

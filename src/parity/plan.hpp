@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Which sides to split so that every region gets an even number of them: a T-join.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// How long the edges of a result are, measured by those of the input nearby.
 

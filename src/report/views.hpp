@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Figures as post-processing data, which Gmsh's window colours the mesh by.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Raises the worst corners of a neighbourhood together, where the shape energy has done what it can.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The distortion metrics that the thesis smooths by [thesis, eq. 2.1, 2.2 with the factor 4 of 3.7; after Canann, Tristano,
 /// Staten].

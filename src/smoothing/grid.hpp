@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A region whose quads are a grid between four corners: its nodes have places of their own.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The shape energy of the elements around a node, as a function of where the node is.
 ///

@@ -38,6 +38,19 @@ std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& 
   return sines;
 }
 
+/// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the element: near 0 it is
+/// chance which way a corner turns.
+template <std::size_t N>
+double smallest_rise(const Corners<N>& p, const CornerNormals<N>& normals) {
+  double least = 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Eigen::Vector3d cross = (p[(i + 1) % N] - p[i]).cross(p[(i + N - 1) % N] - p[i]);
+    const double up = std::max(cross.dot(normals.at[i]), cross.dot(normals.whole.normalized())), area = cross.norm();
+    least = std::min(least, area > 0 ? up / area : 0);
+  }
+  return least;
+}
+
 /// The smallest of them.
 template <std::size_t N>
 double scaled_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {

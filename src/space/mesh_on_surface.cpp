@@ -170,6 +170,12 @@ double MeshOnSurface::exact_sine(Index f) const {
   return chart::degree(face) == 4 ? sine(corners<4>(face)) : sine(corners<3>(face));
 }
 
+double MeshOnSurface::exact_rise(Index f) const {
+  const Face& face = mesh_.faces[f];
+  const auto rise = [&](const auto& p) { return smallest_rise(p, whole_normals_.of(p, mesh_.near[f])); };
+  return chart::degree(face) == 4 ? rise(corners<4>(face)) : rise(corners<3>(face));
+}
+
 double MeshOnSurface::smallest_sine_around(Index v) const {
   double least = 1;
   for_sides_around(v, [&](Index side) { least = std::min(least, smallest_sine(side / 4)); });

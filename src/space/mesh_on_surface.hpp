@@ -73,6 +73,8 @@ class MeshOnSurface {
   /// The one that counts, by the surface's normals near the corners.
   double exact_sine(Index face) const;
   double exact_sine_around(Index v) const;
+  /// smallest_rise() by the same normals.
+  double exact_rise(Index face) const;
 
   /// False if an element around is turned so far against the tangent plane that it cannot be laid there.
   bool unfold(Index v, UnfoldedStar& star) const;

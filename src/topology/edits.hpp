@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Edits of a quad mesh that several stages use; each is made of the kernel's.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Elements that no smoothing can help get other neighbours.
 #include "cleanup/repair.hpp"
 

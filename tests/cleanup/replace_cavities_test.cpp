@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Irregular nodes that cancel each other vanish, the boundary stays.
 #include "cleanup/replace_cavities.hpp"
 

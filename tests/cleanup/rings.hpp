@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Rings of edges to be filled: around a polygon, or around a block of a grid.
 

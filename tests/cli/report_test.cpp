@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The file of --report. What a browser makes of it: tests/pages.
 
 #include <doctest/doctest.h>

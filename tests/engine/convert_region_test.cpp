@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Small regions that come out poor are tried again with other constants of the front.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A mesh with the advancing front on it, as the driver sets it up, for tests of single steps.
 

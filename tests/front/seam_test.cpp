@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Seam, transition seam and transition split: small meshes in, small meshes out, drawn both ways round.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// --all-quad and session::make_even(): curves get as few nodes as it takes for all boundaries to be even.
 
 #include <doctest/doctest.h>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/error.hpp"

@@ -37,6 +37,13 @@ std::string extruded_wall(bool quads) {
          "e[]=Extrude{0,.1,0}{ Curve{1}; Layers{ {1,1,1,1}, {.05,.2,.5,1} };" + (quads ? " Recombine;" : "") + " };\n";
 }
 
+/// A quarter of a cylinder with rows from one rim to the other.
+std::string extruded_arc(bool quads) {
+  return std::string("Point(1)={0,0,0}; Point(2)={1,0,0}; Point(3)={0,1,0}; Circle(1)={2,1,3}; Transfinite Curve{1}=21;\n") +
+         "e[]=Extrude{0,0,1}{ Curve{1}; Layers{ {1,1,1,1,1,8}, {.01,.03,.07,.14,.24,1} };" + (quads ? " Recombine;" : "") +
+         " };\n";
+}
+
 std::string transfinite(bool quads) {
   return std::string("Point(1)={0,0,0}; Point(2)={2,0,0}; Point(3)={2.2,1,0}; Point(4)={0,1,0};\n") +
          "Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Curve Loop(1)={1:4}; Plane Surface(1)={1};\n"
@@ -45,7 +52,7 @@ std::string transfinite(bool quads) {
          (quads ? "Recombine Surface{1};\n" : "");
 }
 
-using Place = std::pair<long long, long long>;  // rounded, since files are
+using Place = std::array<long long, 3>;  // rounded, since files are
 using Places = std::array<Place, 4>;
 
 /// The quads of a file by their corners' places. \param mesh_first by Gmsh, as the script says
@@ -58,7 +65,7 @@ std::set<Places> quads_of(const std::string& path, bool mesh_first) {
   std::vector<double> xyz, uv;
   gmsh::model::mesh::getNodes(node_tags, xyz, uv);
   std::map<std::size_t, Place> place;
-  for (std::size_t i = 0; i < node_tags.size(); ++i) place[node_tags[i]] = {std::llround(1e9 * xyz[3 * i]), std::llround(1e9 * xyz[3 * i + 1])};
+  for (std::size_t i = 0; i < xyz.size(); ++i) place[node_tags[i / 3]][i % 3] = std::llround(1e9 * xyz[i]);
   gmsh::model::mesh::getElementsByType(3, tags, nodes);
   std::set<Places> quads;
   for (std::size_t e = 0; e < tags.size(); ++e) {
@@ -91,6 +98,7 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
       {block_in_box(".005", "1.3", false), block_in_box(".005", "1.3", true)},
       {block_in_box(".0001", "1.4", false), block_in_box(".0001", "1.4", true)},
       {extruded_wall(false), extruded_wall(true)},
+      {extruded_arc(false), extruded_arc(true)},
       {transfinite(false), transfinite(true)}};
   for (const auto& [script, with_quads] : cases) {
     write_file(directory / "in.geo", script);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Surfaces that are images of one another stay so.
 
 #include "gmsh/convert/periodic.hpp"

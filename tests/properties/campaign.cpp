@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Long runs over random domains.
 //
 //   qmorph_campaign FIRST LAST          converts the seeds FIRST to LAST: a line for each that fails, then the totals

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -133,6 +134,35 @@ TEST_CASE("layers: nodes of layers stay where they are, in any position in space
         elsewhere += mesh.source[v] != kNone && mesh.points[v] != moved.points[mesh.source[v]];
     CHECK(elsewhere == 0);
   }
+}
+
+TEST_CASE("layers: on a cylinder they are as on the plane that is rolled up, and so is what is between them") {
+  std::size_t flat_quads = 0, quads = 0;
+  for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
+    const LayeredDomain domain = layered_domain(seed);
+    qmorph::Patch rolled = domain.patch;
+    for (Eigen::Vector3d& p : rolled.points) p = {std::sin(p.x()), p.y(), std::cos(p.x())};
+    const auto flat = qmorph::convert(domain.patch);
+    const auto [mesh, report] = qmorph::convert(rolled);
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    CHECK(report.layer_quads == flat.report.layer_quads);
+    CHECK(mesh.triangles.size() == flat.mesh.triangles.size());
+    std::size_t elsewhere = 0;
+    for (std::size_t q = 0; q < report.layer_quads; ++q)
+      for (Index v : mesh.quads[q])
+        elsewhere += mesh.source[v] != kNone && mesh.points[v] != rolled.points[mesh.source[v]];
+    CHECK(elsewhere == 0);
+    QuadMesh unrolled = mesh;
+    for (Eigen::Vector3d& p : unrolled.points) p = {std::atan2(p.x(), p.z()), p.y(), 0};
+    double least = 1;
+    for (std::size_t q = report.layer_quads; q < mesh.quads.size(); ++q)
+      least = std::min(least, smallest_sine(unrolled, mesh.quads[q]));
+    CHECK(least > 0.3);
+    flat_quads += flat.mesh.quads.size();
+    quads += mesh.quads.size();
+  }
+  CHECK(double(quads) == doctest::Approx(double(flat_quads)).epsilon(0.05));
 }
 
 TEST_CASE("layers: one thread and two make the same bytes, and turned over or renumbered domains have nearly the same layers") {

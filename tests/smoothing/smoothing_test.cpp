@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Nodes move, elements only get better.
 #include <doctest/doctest.h>
 

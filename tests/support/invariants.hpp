@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The invariants I1 to I6 of src/README.md for one surface, checked without a line of the engine.
 

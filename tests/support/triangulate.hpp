@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A constrained Delaunay triangulation of a few hundred lattice points, exact, for making test domains.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One measurement in a process of its own: its peak memory is its own, and it can be ended when it takes too long.
 

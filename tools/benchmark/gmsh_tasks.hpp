@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What is measured beside Gmsh, each for a process of its own (apart.hpp). Files are MSH 4.1, binary.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // qmorph_bench: what a conversion costs, alone and beside Gmsh. Run it by tools/bench.
 
 #include <cstdio>

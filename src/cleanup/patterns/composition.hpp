@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Compositions: what the thesis (3.6.2) writes a replacement pattern in. A dart goes from element to element by the
 /// alpha-iterators 0, 1, 2 and changes the mesh where it is by the codes 3 to 9 of table 3.1.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// CleanUp as the thesis has it (2.2.5, 3.6; after Kinney): chevrons, then rounds of connectivity, boundary and shape
 /// cleanup, all by the cases of cases.hpp.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Where a large region of triangles is cut, so that its parts can be made into quads side by side.
 

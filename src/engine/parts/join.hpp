@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Parts of a divided mesh as regions of their own, and the whole from what they have become.
 

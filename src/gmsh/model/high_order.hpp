@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Elements of second and higher order. The engine sees their corners; what lies between is kept where the edge was
 /// there before, and made where it is new. Surfaces are planar, so that straight is right for what is new.

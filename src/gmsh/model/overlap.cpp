@@ -165,7 +165,8 @@ std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& out
                    [](const Sample& s, const Sample& t) { return s.place.x() < t.place.x(); });
   std::vector<const OutlineEdge*> active;
   std::size_t budget = kBudget * outline.size(), next = 0;
-  for (const auto& [place, edge] : samples) {
+  for (const Sample& sample : samples) {
+    const Vec2& place = sample.place;
     for (; next < outline.size() && outline[next].left() <= place.x(); ++next) active.push_back(&outline[next]);
     std::erase_if(active, [&](const OutlineEdge* above) { return above->right() <= place.x(); });
     if (active.size() > budget) return std::nullopt;
@@ -176,7 +177,7 @@ std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& out
       const int side = orientation(above->a, above->b, place);
       if (side == (leftward ? 1 : -1)) covers += leftward ? 1 : -1;
     }
-    if (covers > 1) return *edge;
+    if (covers > 1) return *sample.edge;
   }
   return std::nullopt;
 }

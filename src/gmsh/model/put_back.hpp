@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Gives entities of the current model other nodes and elements. Gmsh has no call for that: whatever points to what goes has
 /// to go and come back with it.

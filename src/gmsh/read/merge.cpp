@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/read/merge.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@
 #include "gmsh/model/periodic_links.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/read/guest_model.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/read/readable.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// From a file to a model with triangles.
 
@@ -6,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "gmsh/read/msh2_groups.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/msh2_groups.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/views/views.hpp"
 
 namespace qmorph::adapter {

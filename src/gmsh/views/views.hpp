@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Data on nodes and elements ($NodeData, $ElementData, $ElementNodeData) on its way from the mesh of a file to the
 /// mesh of quads. Gmsh keeps the numbers of what the data was on and does not write data with a mesh.

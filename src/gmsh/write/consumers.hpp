@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What the programs that read our meshes ask for, and a mesh in their terms.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What readers ask of a model before it is written: changes of the model that are no changes of the mesh.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/write/write.hpp"
 
 #include <fmt/format.h>
@@ -261,11 +262,14 @@ StagedFile stage(const OutputPlan& plan, TemporaryNames* names) {
 void check_format(const OutputPlan& plan, TemporaryNames* names) {
   const StagedFile probe = stage(plan, names);
   const StageLog log = run_logged([&] { ::gmsh::write(probe.path()); });
-  for (const std::string& error : log.errors)
-    if (error.find("nknown") != std::string::npos || error.find("ompiled without") != std::string::npos ||
-        error.find("must be compiled with") != std::string::npos)
-      throw OutputError(
-          fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.path, plan.format.name, error));
+  for (std::string error : log.errors) {
+    if (error.find("nknown") == std::string::npos && error.find("ompiled without") == std::string::npos &&
+        error.find("must be compiled with") == std::string::npos)
+      continue;
+    if (const std::size_t at = error.find(probe.path()); at != std::string::npos)
+      error.replace(at, probe.path().size(), plan.name);
+    throw OutputError(fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.name, plan.format.name, error));
+  }
 }
 
 void check_elements(const OutputPlan& plan, int order) {
