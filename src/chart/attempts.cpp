@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "chart/irregular_nodes.hpp"
@@ -12,11 +11,11 @@
 namespace qmorph::chart {
 namespace {
 
-/// Larger and smaller angles at which the front turns a corner or takes an edge as a side. As asked first.
+/// Larger and smaller angles at which the front turns a corner or takes an edge as a side.
 std::vector<Options> with_other_fronts(const Options& asked) {
-  std::vector<Options> variants(3, asked);
-  variants[1].front.side_edge_angle *= 1.5;
-  variants[2].front.corner_angle *= 0.9;
+  std::vector<Options> variants(2, asked);
+  variants[0].front.side_edge_angle *= 1.5;
+  variants[1].front.corner_angle *= 0.9;
   return variants;
 }
 
@@ -57,24 +56,21 @@ struct Worth {
 RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, double allowed, Task task) {
   const std::size_t size = region.region.triangles.size();
   if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, allowed, task);
-  std::optional<RegionWork> best;
-  std::optional<Worth> worth;
-  std::optional<SurfaceError> fault;
+  RegionWork best = work_on_region(region, options, allowed, task);
+  Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {
+    if (worth.irregular < kFewIrregular) break;
     try {
       RegionWork work = work_on_region(region, variant, allowed, task);
       const Worth other(work.mesh, size);
-      if (worth && worth->sum >= other.sum) continue;
+      if (worth.sum >= other.sum) continue;
       best = std::move(work);
       worth = other;
-      if (worth->irregular < kFewIrregular) break;
-    } catch (const SurfaceError& error) {
-      if (error.details().kind != ErrorKind::no_valid_mesh) throw;
-      if (!fault) fault = error;
+    } catch (const SurfaceError&) {
+      // there is a result already
     }
   }
-  if (!best) throw *fault;
-  return std::move(*best);
+  return best;
 }
 
 }  // namespace qmorph::chart

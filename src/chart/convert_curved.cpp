@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "chart/attempts.hpp"
 #include "chart/collect.hpp"
+#include "chart/attempts.hpp"
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/window_work.hpp"
 
-#include <algorithm>
 #include <numeric>
-#include <tuple>
 
 #include "cleanup/replace_cavities.hpp"
 #include "engine/allowance.hpp"

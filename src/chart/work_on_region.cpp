@@ -55,7 +55,12 @@ class Worker {
     divide_region();
     work_on_parts();
     clean_interfaces();
-    return cancels_and_improves() || improves();
+    const SurfaceMesh before = mesh_;
+    if (task_ == Task::convert && cancel_irregular_nodes()) {
+      if (improve() && doubtful() == 0) return true;
+      mesh_ = before;  // what is valid in a window may have no valid place in space
+    }
+    return improve();
   }
 
   RegionWork result() {
@@ -100,23 +105,14 @@ class Worker {
  private:
   const space::Background& background() const { return *region_.background; }
 
-  void start() {
-    mesh_ = region_.start();
-    if (distrust_.nodes) mesh_ = refined(mesh_, region_.creases);
-  }
-
-  bool improves() {
+  bool improve() {
     faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
     return !find_fault();
   }
 
-  /// What is valid in a window may have no valid place in space: then nothing has changed.
-  bool cancels_and_improves() {
-    if (task_ != Task::convert) return false;
-    SurfaceMesh before = mesh_;
-    if (cancel_irregular_nodes() && improves()) return true;
-    mesh_ = std::move(before);
-    return false;
+  void start() {
+    mesh_ = region_.start();
+    if (distrust_.nodes) mesh_ = refined(mesh_, region_.creases);
   }
 
   void divide_region() {
@@ -243,7 +239,8 @@ class Worker {
     work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
   }
 
-  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they cost more than they are worth.
+  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they cost more
+  /// than they are worth.
   bool cancel_irregular_nodes() {
     constexpr int kPasses = 3;  // those that are gone make room for others to cancel
     constexpr std::size_t kLarge = 20'000;
