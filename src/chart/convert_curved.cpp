@@ -14,22 +14,22 @@
 namespace qmorph::chart {
 namespace {
 
-std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, double allowed,
-                                    Task task, std::vector<bool>* stuck) {
+std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task,
+                                    std::vector<bool>* stuck) {
   std::vector<char> is_stuck(regions.size(), 0);
   std::vector<RegionWork> works(regions.size());
-  double total = 0;
-  for (const CurvedRegion& region : regions) total += double(region.region.triangles.size());
-  const parallel::SharedProgress shared(options.progress, total);
+  std::size_t total = 0;
+  for (const CurvedRegion& region : regions) total += region.region.triangles.size();
+  const parallel::SharedProgress shared(options.progress, double(total));
   std::vector<ProgressCallback> progress;
   for (const CurvedRegion& region : regions) progress.push_back(shared.part(double(region.region.triangles.size())));
   parallel::for_each_index(regions.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    const double most = part_of(allowed, double(regions[r].region.triangles.size()), total, regions.size());
+    const double allowed = part_of(allowance(total), regions[r].region.triangles.size(), total, regions.size());
     try {
-      works[r] = best_of_attempts(regions[r], own, most, task);
+      works[r] = best_of_attempts(regions[r], own, allowed, task);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = 1;
@@ -62,14 +62,13 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 
 /// `kept` has those quads of the patch that stay.
 SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions,
-                           const Options& options, double allowed, Task task, std::vector<bool>* stuck) {
-  std::vector<RegionWork> works = work_on_all(regions, options, allowed, task, stuck);
+                           const Options& options, Task task, std::vector<bool>* stuck) {
+  std::vector<RegionWork> works = work_on_all(regions, options, task, stuck);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     meshes.push_back(&works[r].mesh);
     result.conversion.report.add(works[r].report);
-    result.cost += works[r].cost;
     ++result.conversion.report.regions;
     result.conversion.report.odd_regions += regions[r].region.boundary_sides % 2;
   }
@@ -80,16 +79,16 @@ SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& r
 
 }  // namespace
 
-SurfaceWork convert_curved(const Patch& patch, const Options& options, double allowed, std::vector<bool>* stuck) {
-  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, allowed, Task::convert, stuck);
+SurfaceWork convert_curved(const Patch& patch, const Options& options, std::vector<bool>* stuck) {
+  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert, stuck);
 }
 
-SurfaceWork improve_curved(const Patch& patch, const Options& options, double allowed) {
+SurfaceWork improve_curved(const Patch& patch, const Options& options) {
   Patch halves = patch;
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(halves, regions, options, allowed, Task::improve, nullptr);
+  return work_on_curved(halves, regions, options, Task::improve, nullptr);
 }
 
 }  // namespace qmorph::chart

@@ -34,7 +34,7 @@ class WindowWork {
         work_{&window.piece, window.piece.mesh(window.chart.flat()), {}},
         before_(work_.mesh),
         nodes_(window.piece.points.size()),
-        allowed_(allowance(double(work_.mesh.face_slots()))) {
+        allowed_(allowance(work_.mesh.face_slots())) {
     std::iota(nodes_.begin(), nodes_.end(), 0);
     options_.observer = nullptr;
     options_.progress = {};

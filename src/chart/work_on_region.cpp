@@ -178,8 +178,7 @@ class Worker {
       if (shared.is_over()) return;
       Options own = options_;
       own.progress = progress[p];
-      const double most =
-          part_of(allowed_, double(division_.parts[p].size()), double(mesh_.faces.size()), parts);
+      const double most = part_of(allowed_, division_.parts[p].size(), mesh_.faces.size(), parts);
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
@@ -198,7 +197,6 @@ class Worker {
     }
     for (std::size_t p = 0; p < parts; ++p) {
       work_.report.add(reports[p]);
-      work_.cost += double(results[p].mesh.work());
       for (std::size_t i = 0; i < kStages; ++i) work_.seconds[i] += records[p].seconds[i];
       for (auto& front : records[p].fronts) work_.fronts.push_back(std::move(front));
     }

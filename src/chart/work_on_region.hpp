@@ -14,7 +14,6 @@ namespace qmorph::chart {
 struct RegionWork {
   SurfaceMesh mesh;  ///< vertices of the region keep their numbers
   ConversionReport report;
-  double cost = 0;  ///< work of all parts
   std::vector<SurfaceMesh> stages;  ///< before the last one; none if nobody wants them
   std::array<double, kStages> seconds{};
   std::vector<std::unique_ptr<FrontObserver>> fronts;

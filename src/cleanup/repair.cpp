@@ -43,7 +43,7 @@ class Repair {
       if (const std::vector<Index> bad = bad_faces(); budget_.is_short_for(bad.size(), kUsualWork))
         try_faces(worst_first(mesh_, bad));
       else
-        for (Index f = 0; f < mesh_.face_slots() && !budget_.is_spent(); ++f) try_face(f);
+        for (Index f = 0; f < mesh_.face_slots(); ++f) try_face(f);
       if (changes_ == before || budget_.is_spent()) break;
     }
     return changes_;
@@ -71,6 +71,11 @@ class Repair {
     return found;
   }
 
+  /// An element that is not valid is mended at any cost.
+  bool may_try(Index f) const {
+    return !budget_.is_spent() || (mesh_.is_live_face(f) && !mesh_.is_valid_face(f));
+  }
+
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
 
   std::vector<Index> bad_faces() const {
@@ -81,12 +86,11 @@ class Repair {
   }
 
   void try_faces(const std::vector<Index>& faces) {
-    for (Index f : faces)
-      if (!budget_.is_spent()) try_face(f);
+    for (Index f : faces) try_face(f);
   }
 
   void try_face(Index f) {
-    if (!is_bad(f) || has_failed(f)) return;
+    if (!may_try(f) || !is_bad(f) || has_failed(f)) return;
     if (improve(f)) {
       ++changes_;
       for (Index v : nodes_) forgive_around(v);
@@ -118,7 +122,7 @@ class Repair {
                      [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
     if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
     for (const Candidate& c : candidates) {
-      if (budget_.is_spent()) return false;
+      if (!may_try(f)) return false;
       std::vector<Index> near = nodes_near(mesh_, c);
       near.insert(near.end(), corners.begin(), corners.end());
       if (try_edit(near, [&](std::vector<Index>& nodes) {

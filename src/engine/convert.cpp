@@ -17,16 +17,16 @@ namespace {
 
 /// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out of the
 /// result, and their nodes are marked in `stuck`; if that is null, they are an error.
-SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options, double allowed,
+SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
                               std::vector<bool>* stuck) {
-  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}, 0};
-  if (!plane) return chart::convert_curved(patch, options, allowed, stuck);
+  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
+  if (!plane) return chart::convert_curved(patch, options, stuck);
   const Surface surface(patch, options.layers ? unstretched(*plane, patch) : *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);
-  const auto work = [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
+  const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
     try {
-      return convert_region(surface.regions[r], surface.plane, own, most, report, record);
+      return convert_region(surface.regions[r], surface.plane, own, allowed, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = true;
@@ -35,7 +35,7 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
       return kernel::Mesh();
     }
   };
-  SurfaceWork result = work_on_regions(surface, options, allowed, work);
+  SurfaceWork result = work_on_regions(surface, options, work);
   for (std::size_t r = 0; r < is_stuck.size(); ++r)
     if (is_stuck[r])
       for (Index v : surface.regions[r].node) (*stuck)[v] = true;
@@ -71,10 +71,10 @@ void add_layers(const Patch& patch, const layers::Layers& layers, const std::opt
 
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the layers
 /// around it are left to the front as well, and at last all of them.
-SurfaceWork convert_patch(const Patch& patch, const Options& options, double allowed) {
+SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   constexpr int kTries = 2;
   require_sound(patch);
-  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, allowed, nullptr);
+  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, nullptr);
   const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
@@ -82,14 +82,14 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options, double all
     if (!layers) break;
     if (plane) require_no_overlap(Surface(patch, *plane).regions, *plane);
     std::vector<bool> stuck_now(layers->patch.points.size(), false);
-    SurfaceWork work = convert_triangles(layers->patch, plane, options, allowed, &stuck_now);
+    SurfaceWork work = convert_triangles(layers->patch, plane, options, &stuck_now);
     if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
       add_layers(patch, *layers, plane, options, work);
       return work;
     }
     for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
   }
-  return convert_triangles(patch, plane, options, allowed, nullptr);
+  return convert_triangles(patch, plane, options, nullptr);
 }
 
 }  // namespace

@@ -11,13 +11,13 @@
 namespace qmorph {
 namespace {
 
-SurfaceWork improve_patch(const Patch& patch, const Options& options, double allowed) {
+SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
   const std::size_t triangles = patch.triangles.size();
   const std::optional<Plane> plane = find_plane(halves);
-  if (!plane) return chart::improve_curved(patch, options, allowed);
+  if (!plane) return chart::improve_curved(patch, options);
   const Surface surface(halves, *plane);
   std::vector<ImproveStart> starts;
   std::vector<Region> regions;
@@ -27,10 +27,10 @@ SurfaceWork improve_patch(const Patch& patch, const Options& options, double all
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options, allowed,
-      [&](std::size_t r, const Options& own, double most, ConversionReport& report, Record& record) {
+      surface, options,
+      [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
         const kernel::Mesh input = join_halves(surface.regions[r], triangles);
-        return improve_region(starts[r], input, surface.plane, own, most, report, record);
+        return improve_region(starts[r], input, surface.plane, own, allowed, report, record);
       });
 }
 

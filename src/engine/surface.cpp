@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -62,8 +61,8 @@ SurfaceError with_node(const SurfaceError& error, const Surface& surface, const 
   return SurfaceError(error.what(), details);
 }
 
-SurfaceWork work_and_measure(const Patch& patch, const Options& options, double allowed, const PatchWork& work) {
-  SurfaceWork result = work(patch, options, allowed);
+SurfaceWork work_and_measure(const Patch& patch, const Options& options, const PatchWork& work) {
+  SurfaceWork result = work(patch, options);
   const QuadMesh& mesh = result.conversion.mesh;
   result.conversion.report.sizes = directed_sizes(patch, mesh.points, mesh.quads);
   if (wants_stages(options)) result.record.size_ratios = size_ratios(patch, mesh);
@@ -78,21 +77,21 @@ Surface::Surface(const Patch& surface, const Plane& its_plane) : patch(surface),
   regions = cut_into_regions(patch, plane_points);
 }
 
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, double allowed, const Work& work) {
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work) {
   std::vector<kernel::Mesh> meshes(surface.regions.size());
   std::vector<ConversionReport> reports(meshes.size());
   std::vector<Record> records(meshes.size());
   std::vector<ProgressCallback> progress;
-  const double triangles = double(surface.patch.triangles.size());
-  const parallel::SharedProgress shared(options.progress, triangles);
+  const std::size_t triangles = surface.patch.triangles.size();
+  const parallel::SharedProgress shared(options.progress, double(triangles));
   for (const Region& region : surface.regions) progress.push_back(shared.part(double(region.triangles.size())));
   parallel::for_each_index(meshes.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    const double most = part_of(allowed, double(surface.regions[r].triangles.size()), triangles, meshes.size());
+    const double allowed = part_of(allowance(triangles), surface.regions[r].triangles.size(), triangles, meshes.size());
     try {
-      meshes[r] = work(r, own, most, reports[r], records[r]);
+      meshes[r] = work(r, own, allowed, reports[r], records[r]);
     } catch (const SurfaceError& error) {
       throw with_node(error, surface, surface.regions[r]);
     }
@@ -107,7 +106,6 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, doub
     ++report.regions;
     report.odd_regions += surface.regions[r].boundary_sides % 2;
     collector.add(surface.regions[r], meshes[r]);
-    result.cost += double(meshes[r].work());
   }
   result.conversion.mesh = collector.finish();
   if (options.observer) result.record = record_of(surface, options, records);
@@ -116,83 +114,50 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, doub
 
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result;
-  parallel::with_threads(options.threads,
-                         [&] { result = work_and_measure(patch, options, allowance(weight(patch)), work); });
+  parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, work); });
   if (options.observer) result.record.tell(*options.observer, 0);
   return std::move(result.conversion);
 }
 
 namespace {
 
-/// Surfaces side by side, as often as it takes.
+/// Surfaces side by side.
 class Patches {
  public:
   Patches(const std::vector<const Patch*>& patches, const Options& options, const PatchWork& work)
       : patches_(patches), options_(options), work_(work), outcomes_(patches.size()), records_(patches.size()) {
-    for (const Patch* patch : patches) total_ += weight(*patch);
-    shared_ = parallel::SharedProgress(options.progress, total_);
+    double total = 0;
+    for (const Patch* patch : patches) total += weight(*patch);
+    shared_ = parallel::SharedProgress(options.progress, total);
     for (const Patch* patch : patches) progress_.push_back(shared_.part(weight(*patch)));
   }
 
   std::vector<Outcome> run() {
-    const double most = allowance(total_);
-    std::vector<double> allowed;
-    for (const Patch* patch : patches_) allowed.push_back(part_of(most, weight(*patch), total_, patches_.size()));
-    std::vector<std::size_t> all(patches_.size());
-    std::iota(all.begin(), all.end(), std::size_t(0));
-    work_on(all, allowed);
-    // What most leave is for those for which their share was not enough.
-    constexpr int kRounds = 2;
-    for (int round = 0; round < kRounds; ++round) {
-      const std::vector<std::size_t> cut_off = those_cut_off();
-      if (cut_off.empty() || cut_off.size() == patches_.size()) break;
-      const double each = (most - cost_) / double(cut_off.size());
-      std::vector<std::size_t> again;
-      for (std::size_t i : cut_off)
-        if (each > 2 * allowed[i]) again.push_back(i), allowed[i] = each;
-      work_on(again, allowed);
-    }
+    parallel::with_threads(options_.threads, [&] {
+      parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); });
+    });
     shared_.finish();
     for (std::size_t i = 0; options_.observer && i < patches_.size(); ++i) records_[i].tell(*options_.observer, i);
     return std::move(outcomes_);
   }
 
  private:
-  void work_on(const std::vector<std::size_t>& some, const std::vector<double>& allowed) {
-    std::vector<double> costs(some.size(), 0);
-    parallel::with_threads(options_.threads, [&] {
-      parallel::for_each_index(some.size(), [&](std::size_t k) { costs[k] = work_on(some[k], allowed[some[k]]); });
-    });
-    for (double cost : costs) cost_ += cost;
-  }
-
-  /// Returns what it cost.
-  double work_on(std::size_t i, double allowed) {
+  void work_on(std::size_t i) {
     using Clock = std::chrono::steady_clock;
-    if (shared_.is_over()) return 0;
+    if (shared_.is_over()) return;
     const Clock::time_point start = Clock::now();
     Options own = options_;
     if (progress_[i]) own.progress = std::ref(progress_[i]);
     std::optional<NumberedObserver> numbered;
     if (options_.observer) own.observer = &numbered.emplace(*options_.observer, i);
-    double cost = 0;
     try {
-      SurfaceWork result = work_and_measure(*patches_[i], own, allowed, work_);
+      SurfaceWork result = work_and_measure(*patches_[i], own, work_);
       outcomes_[i].conversion = std::move(result.conversion);
       records_[i] = std::move(result.record);
-      cost = result.cost;
     } catch (const SurfaceError& error) {
-      if (!outcomes_[i].conversion) outcomes_[i].error = error;
+      outcomes_[i].error = error;
     }
-    outcomes_[i].seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    return cost;
-  }
-
-  std::vector<std::size_t> those_cut_off() const {
-    std::vector<std::size_t> some;
-    for (std::size_t i = 0; i < outcomes_.size(); ++i)
-      if (outcomes_[i].conversion && outcomes_[i].conversion->report.budgets_spent > 0) some.push_back(i);
-    return some;
+    outcomes_[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
   }
 
   const std::vector<const Patch*>& patches_;
@@ -200,7 +165,6 @@ class Patches {
   const PatchWork& work_;
   std::vector<Outcome> outcomes_;
   std::vector<SurfaceRecord> records_;
-  double total_ = 0, cost_ = 0;
   parallel::SharedProgress shared_{{}, 0};
   std::vector<ProgressCallback> progress_;
 };

@@ -30,20 +30,19 @@ struct Surface {
 struct SurfaceWork {
   Conversion conversion;
   SurfaceRecord record;
-  double cost = 0;  ///< work of all regions
 };
 
 /// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much work as is allowed
-/// (allowance.hpp). What it has cost is the work of the mesh.
+/// (allowance.hpp).
 using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, double allowed,
                                         ConversionReport& report, Record& record)>;
 
 /// Works on all regions, side by side, and puts the results together, as they were after each stage, too, if the
 /// observer wants that.
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, double allowed, const Work& work);
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work);
 
-/// Makes a patch into quads, for about as much work as is allowed.
-using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options, double allowed)>;
+/// Makes a patch into quads.
+using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options)>;
 
 /// `work` on one patch, on the threads that the options allow.
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);

@@ -91,7 +91,7 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
     const Vec2 before = mesh.point(v);
     const bool was_valid = mesh.is_valid_star(v);
     untangle_node(mesh, v);
-    star.add_work(star.elements() * star.elements() * star.elements());  // about as long as so many elements
+    star.add_work(3 * star.elements() * star.elements() * star.elements());  // about as long as so many elements
     if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
     return (mesh.point(v) - before).norm() / edge;
   }
@@ -133,7 +133,8 @@ class Passes {
 
   void run(const std::vector<Index>& nodes, const kernel::Budget& budget) {
     cut_into_blocks(nodes);
-    for (int pass = 0; pass < options_.iterations; ++pass)
+    constexpr int kFewest = 2;  // what follows counts on them
+    for (int pass = 0; pass < options_.iterations && (pass < kFewest || !budget.is_spent()); ++pass)
       if (for_blocks([&](const std::vector<Index>& block, std::size_t& work) { return relax(block, work); }) == 0) break;
     wake_at_poor_faces();
     for (int pass = 0; pass < kRepairPasses; ++pass) {
@@ -303,7 +304,8 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
   }
   std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });
   const std::vector<Index> faces = topology::faces_around(mesh, around);
-  mesh.add_work(faces.size());
+  constexpr std::size_t kWorkToGather = 6;  // for each element, from here to the last check
+  mesh.add_work(kWorkToGather * faces.size());
   if (!std::all_of(faces.begin(), faces.end(), [&](Index f) { return mesh.is_valid_face(f); }))
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   Star star;

@@ -129,7 +129,7 @@ TEST_CASE(
   for (const Sample& sample : all) {
     ConversionReport report;
     Record record;
-    const double allowed = allowance(double(sample.region.triangles.size()));
+    const double allowed = allowance(sample.region.triangles.size());
     const auto mesh = convert_in_parts(sample.mesh, {}, sample.plane, options, allowed, report, record);
     REQUIRE(mesh);
     CHECK(find_defects(*mesh, false).empty());

@@ -135,6 +135,28 @@ std::vector<Patch> scattered_surfaces(Patch patch, Index surfaces, Random& rando
   return split(patch, part_of, surfaces);
 }
 
+/// Pieces with ragged outlines: each triangle goes to the nearest of the seeds, which lie one in each square of a grid.
+std::vector<Patch> ragged_pieces(const Patch& patch, double width, Random& random) {
+  double most_x = 0, most_y = 0;
+  for (const auto& p : patch.points) most_x = std::max(most_x, p.x()), most_y = std::max(most_y, p.y());
+  const auto columns = Index(most_x / width) + 1, rows = Index(most_y / width) + 1;
+  std::vector<Vector2d> seeds;
+  for (Index r = 0; r < rows; ++r)
+    for (Index c = 0; c < columns; ++c)
+      seeds.push_back(width * Vector2d(c + random.between(0, 1), r + random.between(0, 1)));
+  std::vector<Index> part_of;
+  for (const auto& t : patch.triangles) {
+    const Vector2d p = ((patch.points[t[0]] + patch.points[t[1]] + patch.points[t[2]]) / 3).head<2>();
+    const auto x = Index(p.x() / width), y = Index(p.y() / width);
+    Index nearest = y * columns + x;
+    for (Index r = std::max(y, 1u) - 1; r < std::min(y + 2, rows); ++r)
+      for (Index c = std::max(x, 1u) - 1; c < std::min(x + 2, columns); ++c)
+        if ((seeds[r * columns + c] - p).norm() < (seeds[nearest] - p).norm()) nearest = r * columns + c;
+    part_of.push_back(nearest);
+  }
+  return split(patch, part_of, Index(seeds.size()));
+}
+
 // --- no inner nodes ------------------------------------------------------------------------------------------------------
 
 /// A convex polygon of `count` nodes, cut by diagonals at random.
@@ -337,6 +359,9 @@ std::vector<HardInput> hard_inputs() {
          for (Index t = 0; t < patch.triangles.size(); ++t) part_of.push_back(t / 2);
          return split(patch, part_of, Index(patch.triangles.size() / 2));
        }},
+      {"4 000 ragged surfaces of five triangles", [=] { Random r(2); return ragged_pieces(make(100, 100, 0.2), 1.5, r); }},
+      {"1 000 ragged surfaces of twenty triangles", [=] { Random r(2); return ragged_pieces(make(100, 100, 0.2), 3, r); }},
+      {"250 ragged surfaces of eighty triangles", [=] { Random r(2); return ragged_pieces(make(100, 100, 0.2), 6, r); }},
       {"polygon cut at random", [=] { Random r(2); return std::vector{cut_polygon(5000, r, 0)}; }},
       {"polygon cut evenly", [=] { Random r(2); return std::vector{cut_polygon(5000, r, 1)}; }},
       {"strip of one row", [=] { Random r(2); return std::vector{strip(10000, 1.1, r)}; }},
