@@ -58,7 +58,6 @@ std::vector<Patch> small_regions(std::size_t most_triangles, std::size_t wanted)
 QuadMesh convert_with(const Patch& patch, std::size_t retry_triangles) {
   Options options;
   options.retry_triangles = retry_triangles;
-  options.layers = false;  // a try is judged by what the front has made
   return convert(patch, options).mesh;
 }
 
