@@ -33,7 +33,7 @@ double smallest_sine(const SurfaceMesh& mesh, const Face& face) {
 
 struct Worth {
   double irregular = 0;  ///< irregular nodes a face
-  double sum = 0;        ///< a good shape of all elements counts as much as regular nodes, and more than one poor element
+  double sum = 0;  ///< a good shape of all elements counts as much as regular nodes, and more than one poor element
 
   Worth(const SurfaceMesh& mesh, std::size_t triangles) {
     constexpr double kGoodEnough = 0.4, kTrianglesPerQuad = 2.31, kFairGrowth = 1.25;
@@ -55,7 +55,8 @@ struct Worth {
 
 RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, double allowed, Task task) {
   const std::size_t size = region.region.triangles.size();
-  if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, allowed, task);
+  if (task != Task::convert || size > 2 * options.retry_triangles)
+    return work_on_region(region, options, allowed, task);
   RegionWork best = work_on_region(region, options, allowed, task);
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {

@@ -84,7 +84,8 @@ Chart::Place Chart::nearest_of_all(const Vec2& p) const {
 
 space::OnTriangle Chart::closest(const Vec2& p, Index half) const {
   const auto& t = piece_.halves[half];
-  return space::closest_on_triangle(in_space(p), in_space(flat()[t[0]]), in_space(flat()[t[1]]), in_space(flat()[t[2]]));
+  return space::closest_on_triangle(in_space(p), in_space(flat()[t[0]]), in_space(flat()[t[1]]),
+                                    in_space(flat()[t[2]]));
 }
 
 Eigen::Vector3d Chart::to_space(const Place& place) const {

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "chart/collect.hpp"
 #include "chart/attempts.hpp"
+#include "chart/collect.hpp"
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
@@ -43,8 +43,8 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
   return works;
 }
 
-SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regions,
-                        const Options& options, std::vector<RegionWork>& works) {
+SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
+                        std::vector<RegionWork>& works) {
   SurfaceRecord record;
   record.normal.setZero();
   for (RegionWork& work : works) {
@@ -61,8 +61,8 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 }
 
 /// `kept` has those quads of the patch that stay.
-SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions,
-                           const Options& options, Task task, std::vector<bool>* stuck) {
+SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
+                           Task task, std::vector<bool>* stuck) {
   std::vector<RegionWork> works = work_on_all(regions, options, task, stuck);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;

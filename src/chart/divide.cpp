@@ -19,8 +19,8 @@ namespace {
 constexpr double kTooLarge = 1.5;
 /// A piece of a part with less than this share of its faces goes to a neighbour.
 constexpr double kCrumb = 0.1;
-/// Quads that are squares in a chart are good quads in space up to this distortion. Parts with few faces may have more: cut again,
-/// they would be all interface.
+/// Quads that are squares in a chart are good quads in space up to this distortion. Parts with few faces may have more:
+/// cut again, they would be all interface.
 constexpr double kMostDistortion = 1.2, kMostOfFew = 2;
 constexpr double kMany = 200, kFew = 30;
 
@@ -118,7 +118,8 @@ class Dividing {
         set_cut(side, true);
         sides.push_back(side);
       }
-      if (!std::has_single_bit(k + 1) && k + 1 < paths.size()) continue;  // a surface with many holes is not laid flat for each
+      if (!std::has_single_bit(k + 1) && k + 1 < paths.size())
+        continue;  // a surface with many holes is not laid flat for each
       auto part = lay_out(faces);
       if (is_good(*part)) return part;
     }
@@ -135,7 +136,8 @@ class Dividing {
       const Face& face = piece.faces[side / 4];
       if (side % 4 >= degree(face) || piece.open[side]) continue;
       const Index a = face[side % 4], b = face[next_corner(face, side % 4)];
-      if (std::binary_search(edges.begin(), edges.end(), std::pair(a, b))) sides.push_back(4 * piece.row[side / 4] + side % 4);
+      if (std::binary_search(edges.begin(), edges.end(), std::pair(a, b)))
+        sides.push_back(4 * piece.row[side / 4] + side % 4);
     }
     return sides;
   }

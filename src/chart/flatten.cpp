@@ -134,7 +134,8 @@ class Flattening2D {
         const Complex pull = weight * shapes_[t].side(i);
         pulls_.emplace_back(pull.real(), pull.imag());
       }
-    for (Index t : first_) entries.emplace_back(int(surface_.corners(t)[0]), int(surface_.corners(t)[0]), 1);  // holds one point
+    for (Index t : first_)
+      entries.emplace_back(int(surface_.corners(t)[0]), int(surface_.corners(t)[0]), 1);  // holds one point
     Matrix matrix(Eigen::Index(points_.size()), Eigen::Index(points_.size()));
     matrix.setFromTriplets(entries.begin(), entries.end());
     solver_.compute(matrix);
@@ -234,7 +235,7 @@ class Flattening2D {
   std::vector<Vec2> points_;
   std::vector<Complex> rotations_;
   std::vector<Index> first_;  ///< a triangle of each part that hangs together
-  std::vector<Vec2> pulls_;  ///< by side: what it adds to the right hand side before it is turned
+  std::vector<Vec2> pulls_;   ///< by side: what it adds to the right hand side before it is turned
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 

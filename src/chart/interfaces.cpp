@@ -30,7 +30,8 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
     for (Index f : sides[s]) division.part[local[f]] = s;
   std::vector<Index> nodes;
   for (Index h = 0; h < flat.half_edge_slots(); ++h)
-    if (is_among(interface, piece.vertex[flat.origin(h)], piece.vertex[flat.target(h)])) nodes.push_back(flat.origin(h));
+    if (is_among(interface, piece.vertex[flat.origin(h)], piece.vertex[flat.target(h)]))
+      nodes.push_back(flat.origin(h));
   sort_unique(nodes);
   straighten_interfaces(flat, division, nodes);
   const Lifted lifted = lift(flat, piece, chart, background);
@@ -50,8 +51,7 @@ void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, cons
   while (true) {
     const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting);
     if (windows.empty()) return;
-    for (const Window& window : windows)
-      straighten_window(mesh, opposite, is_cut, interface, window, background);
+    for (const Window& window : windows) straighten_window(mesh, opposite, is_cut, interface, window, background);
   }
 }
 

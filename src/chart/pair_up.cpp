@@ -18,7 +18,8 @@ namespace {
 
 bool is_triangle(const Face& face) { return degree(face) == 3; }
 
-/// The sides of a triangle after the one that it shares, and those of its neighbour, in the order of the quad that both make.
+/// The sides of a triangle after the one that it shares, and those of its neighbour, in the order of the quad that both
+/// make.
 std::array<Index, 4> sides_of_pair(Index side, Index other) {
   const auto after = [](Index s, Index by) { return s - s % 4 + (s % 4 + by) % 3; };
   return {after(other, 1), after(other, 2), after(side, 1), after(side, 2)};
@@ -43,8 +44,8 @@ bool has_four_corners(const SurfaceMesh& mesh, const std::array<Index, 4>& sides
   return corner(0) != corner(2) && corner(1) != corner(3);
 }
 
-std::vector<Pair> pairs_of(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_wall,
-                           const space::Background& background) {
+std::vector<Pair> pairs_of(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
+                           const std::vector<bool>& is_wall, const space::Background& background) {
   std::vector<Pair> pairs;
   for (Index side = 0; side < opposite.size(); ++side) {
     const Index other = opposite[side];
@@ -52,7 +53,8 @@ std::vector<Pair> pairs_of(const SurfaceMesh& mesh, const std::vector<Index>& op
     if (!is_triangle(mesh.faces[side / 4]) || !is_triangle(mesh.faces[other / 4])) continue;
     const auto sides = sides_of_pair(side, other);
     if (!has_four_corners(mesh, sides)) continue;
-    if (const double sine = sine_of(mesh, sides, background); sine > kStraightSine) pairs.push_back({sine, side, other});
+    if (const double sine = sine_of(mesh, sides, background); sine > kStraightSine)
+      pairs.push_back({sine, side, other});
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.sine > b.sine; });
   return pairs;
@@ -172,7 +174,7 @@ class Chains {
   const std::vector<bool>& is_wall_;
   const space::Background& background_;
   const SmoothingOptions& smoothing_;
-  std::vector<char> is_taken_;     ///< by face
+  std::vector<char> is_taken_;  ///< by face
   std::vector<Index> came_from_;
   std::vector<std::unique_ptr<LaidOut>> laid_out_;  ///< of the results
 };

@@ -16,8 +16,8 @@ Plane plane_of(const Chart& chart) {
 
 }  // namespace
 
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
-                          Record& record) {
+kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
+                          ConversionReport& report, Record& record) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(chart);
   const Region region = piece.region(chart.flat());

@@ -6,7 +6,8 @@ namespace {
 
 class Refining {
  public:
-  Refining(const SurfaceMesh& mesh, const std::vector<Edge>& kept) : mesh_(mesh), middle_(4 * mesh.faces.size(), kNone) {
+  Refining(const SurfaceMesh& mesh, const std::vector<Edge>& kept)
+      : mesh_(mesh), middle_(4 * mesh.faces.size(), kNone) {
     result_.points = mesh.points;
     result_.on = mesh.on;
     result_.fixed = mesh.fixed;

@@ -104,7 +104,7 @@ std::vector<double> mean_edges(const SurfaceMesh& mesh) {
 }
 
 std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-              std::vector<Edge>& interface, const space::Background& background) {
+                            std::vector<Edge>& interface, const space::Background& background) {
   if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
   const std::vector<Merge> merges = choose(mesh, size, creases, interface);
   std::vector<Index> goes_into(mesh.points.size(), kNone);

@@ -59,7 +59,8 @@ class WindowWork {
   std::optional<Reworked> result(double mean_loss, const space::Background& background) {
     const Shapes after(work_.mesh);
     const auto& [piece, chart] = window_;
-    if (after.bad > before_.bad || after.mean < before_.mean - mean_loss || folds_onto_itself(work_.mesh, piece)) return {};
+    if (after.bad > before_.bad || after.mean < before_.mean - mean_loss || folds_onto_itself(work_.mesh, piece))
+      return {};
     work_.lifted = lift(work_.mesh, piece, chart, background);
     return std::move(work_);
   }

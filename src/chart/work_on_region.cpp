@@ -147,9 +147,8 @@ class Worker {
 
   bool is_distrusted(Index part) const {
     if (distrust_.all || is_turned_over(division_.laid_out[part])) return true;
-    return !distrust_.triangles.empty() &&
-           std::any_of(division_.parts[part].begin(), division_.parts[part].end(),
-                       [&](Index f) { return distrust_.triangles[mesh_.near[f]]; });
+    return !distrust_.triangles.empty() && std::any_of(division_.parts[part].begin(), division_.parts[part].end(),
+                                                       [&](Index f) { return distrust_.triangles[mesh_.near[f]]; });
   }
 
   void straighten_interfaces() {
@@ -193,7 +192,8 @@ class Worker {
       if (!has_no_chart_[p]) continue;
       reports[p] = {};
       records[p] = {};
-      if (wants_stages(options_)) records[p].stages.front() = division_.laid_out[p]->piece.mesh(division_.laid_out[p]->chart.flat());
+      if (wants_stages(options_))
+        records[p].stages.front() = division_.laid_out[p]->piece.mesh(division_.laid_out[p]->chart.flat());
     }
     for (std::size_t p = 0; p < parts; ++p) {
       work_.report.add(reports[p]);
@@ -237,8 +237,8 @@ class Worker {
     work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
   }
 
-  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they cost more
-  /// than they are worth.
+  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they
+  /// cost more than they are worth.
   bool cancel_irregular_nodes() {
     constexpr int kPasses = 3;  // those that are gone make room for others to cancel
     constexpr std::size_t kLarge = 20'000;
@@ -259,13 +259,11 @@ class Worker {
     while (true) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
-      const std::vector<Window> windows =
-          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
+      const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
       if (windows.empty()) return changed;
       std::vector<std::optional<Reworked>> reworked(windows.size());
-      parallel::for_each_index(windows.size(), [&](std::size_t w) {
-        reworked[w] = work(*windows[w].laid_out, options_, background());
-      });
+      parallel::for_each_index(
+          windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, background()); });
       std::vector<Reworked> results;
       for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));
@@ -328,7 +326,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
     distrust.interfaces = true;
   }
   if (best) return std::move(*best);
-  // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have one.
+  // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have
+  // one.
   if (task == Task::convert && region.region.triangles.size() <= options.retry_triangles)
     for (const Options& variant : variants_of(options))
       if (Worker worker(region, variant, allowed, task, nothing); worker.run()) return worker.result();

@@ -17,8 +17,8 @@ constexpr int kShortOutline = 100;
 
 constexpr int kForbidden = 1'000'000;
 
-/// Score of the new nodes: one is irregular unless there are four corners. All costs are whole numbers: their sums have no
-/// rounding, in whatever order.
+/// Score of the new nodes: one is irregular unless there are four corners. All costs are whole numbers: their sums have
+/// no rounding, in whatever order.
 int cost_inside(int corners) { return corners == 4 ? 0 : 1; }
 
 /// What a place of an outline costs as a side, and as a corner over that.
@@ -108,8 +108,8 @@ class Chooser {
 
   double cost_of_sides(int corners) const { return places_.side_cost + cost_inside(corners); }
 
-  /// Offers every choice of `left` more corners from likely_[from] on that does not cost too much; `cost` is that of the corners
-  /// picked so far and the sides.
+  /// Offers every choice of `left` more corners from likely_[from] on that does not cost too much; `cost` is that of
+  /// the corners picked so far and the sides.
   void pick(std::size_t from, int left, double cost) {
     if (left == 0) return offer(picked_);
     for (std::size_t i = from; i + left <= likely_.size(); ++i) {
@@ -169,8 +169,7 @@ bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity
 }
 
 std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
-                                           double most_cost, double quads_wanted,
-                                           const FillingSize& size) {
+                                           double most_cost, double quads_wanted, const FillingSize& size) {
   return Chooser(Places(mesh, score, cavity), most_cost, quads_wanted, size).run();
 }
 

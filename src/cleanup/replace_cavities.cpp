@@ -24,8 +24,8 @@ bool has_chance(const Cavity& cavity, const FillingChoice& choice, int tries, in
   return tries <= most_tries && (cavity.faces().size() <= kLargeCavity || (tries == 1 && choice.misfit < kMostMisfit));
 }
 
-/// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower before), and
-/// the mean hardly.
+/// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower
+/// before), and the mean hardly.
 bool is_good_enough(const Worth& before, const Worth& after) {
   constexpr double kMeanLoss = 0.02;
   return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean - kMeanLoss;

@@ -9,9 +9,8 @@
 
 namespace qmorph::cleanup {
 
-/// Finds the bands that are one row wide, or two for a few elements, and gives them the rows of band_plan.hpp where that makes
-/// the elements better on average. Returns the number of changes. Cost: linear.
-std::size_t straighten_bands(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                             const kernel::Budget& budget = {});
+/// Finds the bands that are one row wide, or two for a few elements, and gives them the rows of band_plan.hpp where
+/// that makes the elements better on average. Returns the number of changes. Cost: linear.
+std::size_t straighten_bands(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {});
 
 }  // namespace qmorph::cleanup

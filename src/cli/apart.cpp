@@ -54,7 +54,8 @@ class SharedSlate {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that is not allowed to grow becomes an error
-  const Process process{.err_is_terminal = ::isatty(STDERR_FILENO) == 1, .slate = &slate, .gmsh_home = directory.path()};
+  const Process process{
+      .err_is_terminal = ::isatty(STDERR_FILENO) == 1, .slate = &slate, .gmsh_home = directory.path()};
   const int err = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   if (!directory.path().empty()) {
     ::setenv("TMPDIR", directory.path().c_str(), 1);

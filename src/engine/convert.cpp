@@ -15,8 +15,8 @@
 namespace qmorph {
 namespace {
 
-/// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out of the
-/// result, and their nodes are marked in `stuck`; if that is null, they are an error.
+/// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
+/// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
 SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
                               std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
@@ -49,8 +49,8 @@ QuadMesh as_it_was(const Patch& patch) {
 }
 
 /// What the front has made of the rest, as a conversion of the patch.
-void add_layers(const Patch& patch, const layers::Layers& layers, const std::optional<Plane>& plane, const Options& options,
-                SurfaceWork& work) {
+void add_layers(const Patch& patch, const layers::Layers& layers, const std::optional<Plane>& plane,
+                const Options& options, SurfaceWork& work) {
   auto& [mesh, report] = work.conversion;
   report.layer_quads = layers.quads;
   report.regions = layers.regions;
@@ -69,8 +69,8 @@ void add_layers(const Patch& patch, const layers::Layers& layers, const std::opt
   std::for_each(stages.begin(), stages.end(), mend_sources);
 }
 
-/// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the layers
-/// around it are left to the front as well, and at last all of them.
+/// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
+/// layers around it are left to the front as well, and at last all of them.
 SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   constexpr int kTries = 2;
   require_sound(patch);

@@ -22,7 +22,8 @@ struct Attempt {
   std::optional<SurfaceError> fault{};
 };
 
-/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1 and 2.2.
+/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1
+/// and 2.2.
 double shape(const kernel::Mesh& mesh, Index f) {
   double least = 1;
   Index h = mesh.half_edge(f);
@@ -102,7 +103,7 @@ class RegionConverter {
     if (!fault) {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
-      constexpr std::size_t kFewest = 3;  // with fewer a front has no choice
+      constexpr std::size_t kFewest = 3;                // with fewer a front has no choice
       const bool may_try_again = size >= kFewest && size <= 2 * options_.retry_triangles;
       Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, allowed_, true);
       if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
@@ -152,7 +153,8 @@ class RegionConverter {
         ++best.report.budgets_spent;
         break;
       }
-      Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true, kMostGrowth * (count_faces(best.mesh, 4) + kFew));
+      Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true,
+                              kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = judge(other.mesh);
       if (other.fault || others.sum() <= worth.sum()) continue;
       best = std::move(other);

@@ -107,8 +107,8 @@ ImproveStart start_improving(const Region& region, kernel::Mesh mesh, const Plan
   return start;
 }
 
-kernel::Mesh improve_region(const ImproveStart& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            double allowed, ConversionReport& report, Record& record) {
+kernel::Mesh improve_region(const ImproveStart& start, const kernel::Mesh& input, const Plane& plane,
+                            const Options& options, double allowed, ConversionReport& report, Record& record) {
   const Figures before = figures_of(input);
   Pipeline pipeline(options, report, record, input, allowed);
   kernel::Mesh best = make_anew(start, plane, pipeline);

@@ -64,9 +64,10 @@ void repair_input(Mesh& mesh, const std::vector<Index>& node, const Plane& plane
     const auto n = topology::nodes_of(mesh, f);
     if (orientation(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])) < 0 &&
         mesh.smallest_sine(f) < -kDegenerateSine)
-      throw SurfaceError("the triangle " + corners_of(mesh, plane, f) +
-                             " is turned over, so triangles overlap; mesh the surface anew or repair it",
-                         {.kind = ErrorKind::overlap, .place = corner_of(mesh, plane, f), .subject = subject_of(mesh, node, f)});
+      throw SurfaceError(
+          "the triangle " + corners_of(mesh, plane, f) +
+              " is turned over, so triangles overlap; mesh the surface anew or repair it",
+          {.kind = ErrorKind::overlap, .place = corner_of(mesh, plane, f), .subject = subject_of(mesh, node, f)});
     flat.push_back(f);
   }
   for (Index f : flat)

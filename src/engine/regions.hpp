@@ -14,8 +14,8 @@
 
 namespace qmorph {
 
-/// The plane of a surface: u runs along `axis_u`, v along `axis_v`, their cross product is the normal that
-/// the elements follow. Products with the dual axes are u and v; they are the axes themselves unless these are no unit vectors.
+/// The plane of a surface: u runs along `axis_u`, v along `axis_v`, their cross product is the normal that the elements
+/// follow. Products with the dual axes are u and v; they are the axes themselves unless these are no unit vectors.
 struct Plane {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
@@ -47,7 +47,8 @@ struct Region {
   std::size_t boundary_sides = 0;
 };
 
-/// What is done where more than two triangles meet at an edge: in a plane they overlap, in space they are sheets, and parted there.
+/// What is done where more than two triangles meet at an edge: in a plane they overlap, in space they are sheets, and
+/// parted there.
 enum class EdgesOfMany { refuse, part };
 
 /// The regions' triangles follow one another along a Z-curve.

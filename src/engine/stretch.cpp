@@ -15,8 +15,9 @@ constexpr double kLeast = 4;
 /// From one to the next, it differs by no more than a factor like this, in the mean.
 constexpr double kMostSpread = 2;
 
-/// Logarithm of how much longer a triangle is in one direction than in the other, as a vector with twice that direction's
-/// angle: opposite directions are the same, and those at a right angle cancel each other. Nothing of a triangle without area.
+/// Logarithm of how much longer a triangle is in one direction than in the other, as a vector with twice that
+/// direction's angle: opposite directions are the same, and those at a right angle cancel each other. Nothing of a
+/// triangle without area.
 std::optional<Vec2> log_stretch(const std::array<Vec2, 3>& corners) {
   double xx = 0, xy = 0, yy = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -133,9 +133,8 @@ class Patches {
   }
 
   std::vector<Outcome> run() {
-    parallel::with_threads(options_.threads, [&] {
-      parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); });
-    });
+    parallel::with_threads(options_.threads,
+                           [&] { parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); }); });
     shared_.finish();
     for (std::size_t i = 0; options_.observer && i < patches_.size(); ++i) records_[i].tell(*options_.observer, i);
     return std::move(outcomes_);

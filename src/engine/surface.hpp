@@ -32,8 +32,8 @@ struct SurfaceWork {
   SurfaceRecord record;
 };
 
-/// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much work as is allowed
-/// (allowance.hpp).
+/// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much
+/// work as is allowed (allowance.hpp).
 using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, double allowed,
                                         ConversionReport& report, Record& record)>;
 

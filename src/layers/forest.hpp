@@ -11,8 +11,8 @@ namespace qmorph::layers {
 
 using Edge = std::pair<Index, Index>;
 
-/// A tree for all nodes of a graph that edges join. Oddness goes along an edge from each node that has it to the one above: a node
-/// with two of them is even, so that in the end only roots may be odd.
+/// A tree for all nodes of a graph that edges join. Oddness goes along an edge from each node that has it to the one
+/// above: a node with two of them is even, so that in the end only roots may be odd.
 class Forest {
  public:
   /// \param roots all nodes: of a tree, the first of them is the root

@@ -73,16 +73,16 @@ std::size_t count_beyond(const Cells& cells, Index c) {
   return found.size() - 1;
 }
 
-/// A triangle at the tip of a fan becomes two, which are halves of a straight angle. They should not be a pair, but have one
-/// each on both sides.
+/// A triangle at the tip of a fan becomes two, which are halves of a straight angle. They should not be a pair, but
+/// have one each on both sides.
 bool leaves_pairs(const Cells& cells, const Parts& parts, Index start) {
   constexpr std::size_t kFew = 16;
   if (parts.sizes[parts.part_of[start / 3]] > kFew) return true;
   return count_beyond(cells, Sides::next(start)) % 2 == 1 && count_beyond(cells, Sides::previous(start)) % 2 == 1;
 }
 
-/// The best cut between each two parts, from the lower to the higher number: of those that leave pairs at their ends the one with
-/// the longest end.
+/// The best cut between each two parts, from the lower to the higher number: of those that leave pairs at their ends
+/// the one with the longest end.
 using Links = std::map<Edge, Cut>;
 
 Links link_parts(const Cells& cells, const Parts& parts) {

@@ -15,8 +15,8 @@ namespace {
 constexpr double kRight = std::numbers::pi / 2, kDegree = kRight / 90;
 /// Cells begin at this length over height: more than in grids of 2 to 1, which are left to the front.
 constexpr double kLeastLong = 2.25;
-/// Cells of a grid that leans, as on a swept wing, are off 90 degrees by this at most, and so long; triangles are thin there
-/// because they lean.
+/// Cells of a grid that leans, as on a swept wing, are off 90 degrees by this at most, and so long; triangles are thin
+/// there because they lean.
 constexpr double kLeaning = 50 * kDegree, kLeaningLong = 5;
 /// The other way to pair is worse by this, or the grid goes from wall to wall.
 constexpr double kMuchWorse = 20 * kDegree;

@@ -6,8 +6,8 @@
 
 namespace qmorph::layers {
 
-/// Takes strips of thin triangles. Across its long edges each is joined to two others, so that they form columns; of the two
-/// ways to make a column into pairs, that one is taken which leaves less, or is less askew, or goes on straight
+/// Takes strips of thin triangles. Across its long edges each is joined to two others, so that they form columns; of
+/// the two ways to make a column into pairs, that one is taken which leaves less, or is less askew, or goes on straight
 /// with the rows of the columns beside it. From there columns march up and down.
 /// \param thin triangles, among them all whose longest side is more than kStart times the height on it
 void take_strips(Cells& cells, const std::vector<Index>& thin);

@@ -12,9 +12,7 @@ namespace {
 
 constexpr auto kAnyLayout = py::array::c_style | py::array::forcecast;
 
-[[noreturn]] void refuse(const char* name, const char* wanted) {
-  throw UsageError(std::string(name) + ": " + wanted);
-}
+[[noreturn]] void refuse(const char* name, const char* wanted) { throw UsageError(std::string(name) + ": " + wanted); }
 
 /// As NumPy sees it; an empty one where it is None.
 py::array array_from(const py::object& object, const char* name) {
@@ -45,7 +43,8 @@ Index node_from(std::int64_t number, const char* name) {
 
 std::vector<Eigen::Vector3d> points_from(const py::object& object) {
   const py::array array = array_from(object, "points");
-  if (array.ndim() != 2 || (array.shape(1) != 2 && array.shape(1) != 3)) refuse("points", "two or three columns are wanted");
+  if (array.ndim() != 2 || (array.shape(1) != 2 && array.shape(1) != 3))
+    refuse("points", "two or three columns are wanted");
   if (array.dtype().kind() == 'c' || array.dtype().kind() == 'O') refuse("points", "real numbers are wanted");
   const py::array_t<double, kAnyLayout> numbers(array);
   const auto view = numbers.unchecked<2>();
@@ -102,7 +101,8 @@ Patch patch_from(const py::object& points, const py::object& triangles, const py
 py::dict arrays_of(QuadMesh&& mesh) {
   // -1 says "new" better than the largest number that there is.
   std::vector<std::int32_t> source(mesh.source.size());
-  for (std::size_t i = 0; i < source.size(); ++i) source[i] = mesh.source[i] == kNone ? -1 : std::int32_t(mesh.source[i]);
+  for (std::size_t i = 0; i < source.size(); ++i)
+    source[i] = mesh.source[i] == kNone ? -1 : std::int32_t(mesh.source[i]);
   py::dict arrays;
   arrays["points"] = view_of<Eigen::Vector3d, double, 3>(std::move(mesh.points));
   arrays["quads"] = view_of<std::array<Index, 4>, Index, 4>(std::move(mesh.quads));

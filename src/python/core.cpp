@@ -7,7 +7,7 @@
 #include "python/reports.hpp"
 #include "python/waiting.hpp"
 #include "qmorph/convert.hpp"
-#include "quality/locate.hpp"
+#include "space/triangle_tree.hpp"
 
 namespace py = pybind11;
 using namespace qmorph;
@@ -57,17 +57,20 @@ py::dict measure_arrays(const py::object& points, const py::object& triangles, c
   accumulator.add(patch.points, patch.triangles, patch.quads);
   py::dict figures = python::dict_of(accumulator.result());
   const auto each = accumulator.scaled_jacobians();
-  figures["scaled_jacobians"] =
-      python::view_of<double, double, 1>(std::vector<double>(each.begin(), each.end()));
+  figures["scaled_jacobians"] = python::view_of<double, double, 1>(std::vector<double>(each.begin(), each.end()));
   return figures;
 }
 
 /// For each place the row of the triangle that it is on or nearest to, -1 where there is none.
 py::array locate_places(const py::object& places, const py::object& points, const py::object& triangles) {
-  const std::vector<Index> rows =
-      locate(python::points_from(places), python::points_from(points), python::elements_from<3>(triangles, "triangles"));
+  const std::vector<Eigen::Vector3d> all = python::points_from(points);
+  const auto elements = python::elements_from<3>(triangles, "triangles");
+  const space::TriangleTree tree(all, elements);
   std::vector<std::int64_t> found;
-  for (Index row : rows) found.push_back(row == kNone ? -1 : std::int64_t(row));
+  for (const Eigen::Vector3d& place : python::points_from(places)) {
+    const Index triangle = tree.closest(place).triangle;
+    found.push_back(triangle == kNone ? -1 : std::int64_t(triangle));
+  }
   return python::view_of<std::int64_t, std::int64_t, 1>(std::move(found));
 }
 
@@ -77,7 +80,8 @@ PYBIND11_MODULE(_core, module) {
   using namespace py::literals;
   python::register_errors();
   const auto add = [&](const char* name, auto function) {
-    module.def(name, function, "points"_a, "triangles"_a, "quads"_a, "constraints"_a, "fixed"_a, "options"_a, "progress"_a);
+    module.def(name, function, "points"_a, "triangles"_a, "quads"_a, "constraints"_a, "fixed"_a, "options"_a,
+               "progress"_a);
   };
   add("convert", convert_arrays);
   add("improve", improve_arrays);

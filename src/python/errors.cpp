@@ -14,32 +14,52 @@ namespace {
 
 const char* name_of(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::usage: return "usage";
-    case ErrorKind::no_such_entity: return "no_such_entity";
-    case ErrorKind::input: return "input";
-    case ErrorKind::output: return "output";
-    case ErrorKind::cancelled: return "cancelled";
-    case ErrorKind::surface: return "surface";
-    case ErrorKind::not_finite: return "not_finite";
-    case ErrorKind::no_area: return "no_area";
-    case ErrorKind::not_manifold: return "not_manifold";
-    case ErrorKind::overlap: return "overlap";
-    case ErrorKind::bad_element: return "bad_element";
-    case ErrorKind::element_type: return "element_type";
-    case ErrorKind::volume: return "volume";
-    case ErrorKind::periodic: return "periodic";
-    case ErrorKind::no_valid_mesh: return "no_valid_mesh";
+    case ErrorKind::usage:
+      return "usage";
+    case ErrorKind::no_such_entity:
+      return "no_such_entity";
+    case ErrorKind::input:
+      return "input";
+    case ErrorKind::output:
+      return "output";
+    case ErrorKind::cancelled:
+      return "cancelled";
+    case ErrorKind::surface:
+      return "surface";
+    case ErrorKind::not_finite:
+      return "not_finite";
+    case ErrorKind::no_area:
+      return "no_area";
+    case ErrorKind::not_manifold:
+      return "not_manifold";
+    case ErrorKind::overlap:
+      return "overlap";
+    case ErrorKind::bad_element:
+      return "bad_element";
+    case ErrorKind::element_type:
+      return "element_type";
+    case ErrorKind::volume:
+      return "volume";
+    case ErrorKind::periodic:
+      return "periodic";
+    case ErrorKind::no_valid_mesh:
+      return "no_valid_mesh";
   }
   return "surface";
 }
 
 const char* name_of(ErrorSubject::Kind kind) {
   switch (kind) {
-    case ErrorSubject::Kind::node: return "node";
-    case ErrorSubject::Kind::element: return "element";
-    case ErrorSubject::Kind::curve: return "curve";
-    case ErrorSubject::Kind::surface: return "surface";
-    case ErrorSubject::Kind::volume: return "volume";
+    case ErrorSubject::Kind::node:
+      return "node";
+    case ErrorSubject::Kind::element:
+      return "element";
+    case ErrorSubject::Kind::curve:
+      return "curve";
+    case ErrorSubject::Kind::surface:
+      return "surface";
+    case ErrorSubject::Kind::volume:
+      return "volume";
   }
   return "node";
 }

@@ -50,7 +50,8 @@ Options options_from(const py::dict& named) {
       const auto known = std::find_if(names.begin(), names.end(), [&](const std::string& one) {
         return one == name || as_written(one, '_') == name;
       });
-      if (known == names.end()) throw UsageError("there is no option '" + name + "'; qmorph.option_names() has them all");
+      if (known == names.end())
+        throw UsageError("there is no option '" + name + "'; qmorph.option_names() has them all");
       set_option(options, *known, number_from(name, value));
     }
   }

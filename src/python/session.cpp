@@ -19,9 +19,12 @@ namespace {
 
 const char* name_of(SurfaceOutcome outcome) {
   switch (outcome) {
-    case SurfaceOutcome::converted: return "converted";
-    case SurfaceOutcome::already_quads: return "already_quads";
-    case SurfaceOutcome::left: return "left";
+    case SurfaceOutcome::converted:
+      return "converted";
+    case SurfaceOutcome::already_quads:
+      return "already_quads";
+    case SurfaceOutcome::left:
+      return "left";
   }
   return "left";
 }
@@ -86,8 +89,9 @@ PYBIND11_MODULE(_session, module) {
   };
   add("recombine", session::recombine);
   add("improve_quads", session::improve_quads);
-  module.def("measure_surfaces",
-             [](const std::vector<int>& surfaces) { return dict_of(session::measure_surfaces(surfaces)); }, "surfaces"_a);
+  module.def(
+      "measure_surfaces", [](const std::vector<int>& surfaces) { return dict_of(session::measure_surfaces(surfaces)); },
+      "surfaces"_a);
   module.def("make_even", make_even, "surfaces"_a, "keep_curves"_a);
   // Two Gmsh libraries in one process have a session each, which do not see each other.
   module.def("address_of_gmsh", [] { return reinterpret_cast<std::uintptr_t>(&gmshInitialize); });

@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// By how much of its longest side a quad reaches beyond itself. The middle of a quad of a curved surface lies beside it.
+/// By how much of its longest side a quad reaches beyond itself. The middle of a quad of a curved surface lies beside
+/// it.
 constexpr double kReach = 0.1;
 /// Ranges of the tree that are this short are looked through one by one.
 constexpr std::size_t kLeaf = 2;

@@ -8,8 +8,9 @@
 
 namespace qmorph {
 
-/// For each inner edge of `after` (one with two elements): its length over the median length of the 12 edges of `before`
-/// whose middles are nearest to its own. 1: quads are as long as the triangles were, there, however sizes are graded.
+/// For each inner edge of `after` (one with two elements): its length over the median length of the 12 edges of
+/// `before` whose middles are nearest to its own. 1: quads are as long as the triangles were, there, however sizes are
+/// graded.
 /// Cost: n log n.
 std::vector<double> size_ratios(const Patch& before, const QuadMesh& after);
 

@@ -21,9 +21,9 @@ struct CornerNormals {
 };
 
 /// Sines of the corners in space. Negative where the corner is turned over: the cross product of its sides points away
-/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by the
-/// first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle.
-/// 0 for a side without length, -1 where a coordinate is NaN.
+/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by
+/// the first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle. 0 for a
+/// side without length, -1 where a coordinate is NaN.
 template <std::size_t N>
 std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& normals) {
   std::array<double, N> sines;
@@ -38,8 +38,8 @@ std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& 
   return sines;
 }
 
-/// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the element: near 0 it is
-/// chance which way a corner turns.
+/// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the
+/// element: near 0 it is chance which way a corner turns.
 template <std::size_t N>
 double smallest_rise(const Corners<N>& p, const CornerNormals<N>& normals) {
   double least = 1;

@@ -29,7 +29,8 @@ std::vector<Index> doubtful_faces(const MeshOnSurface& mesh) {
   constexpr double kLeastRise = 0.1;
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.faces(); ++f)
-    if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !is_folded_under(mesh, f)) faces.push_back(f);
+    if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !is_folded_under(mesh, f))
+      faces.push_back(f);
   return faces;
 }
 

@@ -15,8 +15,9 @@ struct Faults {
   std::vector<Index> doubtful;  ///< valid, but it is nearly chance that they are
 };
 
-/// A mesh that was made in charts of a region, by what it is in space: smoothed, its poor elements raised, those that are turned
-/// over mended. Boundary, fixed nodes and edges on creases stay. `creases` are edges of the mesh, lower node first, sorted.
+/// A mesh that was made in charts of a region, by what it is in space: smoothed, its poor elements raised, those that
+/// are turned over mended. Boundary, fixed nodes and edges on creases stay. `creases` are edges of the mesh, lower node
+/// first, sorted.
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
                const SmoothingOptions& options);
 

@@ -109,7 +109,8 @@ Vector3d MeshOnSurface::centre(Index f) const {
   return sum / double(degree);
 }
 
-/// Nodes on creases have triangles on several sides: faces there are found from a node that is elsewhere, or from a neighbour.
+/// Nodes on creases have triangles on several sides: faces there are found from a node that is elsewhere, or from a
+/// neighbour.
 void MeshOnSurface::find_places() {
   std::vector<Index> queue;
   std::vector<char> found(faces(), 0);

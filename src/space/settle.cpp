@@ -27,7 +27,8 @@ class Settling {
   }
 
  private:
-  /// How fast the distance of a quad's centre from the surface grows when the centre moves; slower where it is nearly there.
+  /// How fast the distance of a quad's centre from the surface grows when the centre moves; slower where it is nearly
+  /// there.
   Vector3d slope_of(Index f) const {
     constexpr double kNear = 0.02;  // of a diagonal
     if (chart::degree(mesh_.mesh().faces[f]) != 4) return Vector3d::Zero();
@@ -39,7 +40,8 @@ class Settling {
     return distance > 0 ? Vector3d((centre - foot.point) / distance) : Vector3d::Zero();
   }
 
-  /// Sends a node downhill, half as far as its neighbours have come besides: where all go the same way no shape suffers.
+  /// Sends a node downhill, half as far as its neighbours have come besides: where all go the same way no shape
+  /// suffers.
   void settle(Index v) {
     constexpr double kGain = 0.15, kMost = 0.15;  // of an edge
     Vector3d slope = Vector3d::Zero(), others = Vector3d::Zero();

@@ -73,7 +73,8 @@ TEST_CASE("pair up: one triangle is left of an odd number, and no pair crosses a
 
 TEST_CASE("refine: every edge inside has a node in its middle, the boundary and what is kept has none") {
   Rng rng(33);
-  for (const Patch& patch : {tube(1, 0.3, 0.3, 0, rng), pierced(box({1, 1, 1}, 0.5, rng), {0, 0, 0}, 0.3), box({1, 1, 1}, 1, rng)}) {
+  for (const Patch& patch :
+       {tube(1, 0.3, 0.3, 0, rng), pierced(box({1, 1, 1}, 0.5, rng), {0, 0, 0}, 0.3), box({1, 1, 1}, 1, rng)}) {
     const Start start(patch, 0.7);
     std::size_t inside = 0;
     const std::vector<bool> kept = chart::sides_on(start.mesh, start.region.creases);
@@ -85,7 +86,8 @@ TEST_CASE("refine: every edge inside has a node in its middle, the boundary and 
     CHECK(euler(fine) == euler(start.mesh));
     const std::vector<bool> still = chart::sides_on(fine, start.region.creases);
     CHECK(std::count(still.begin(), still.end(), true) == std::count(kept.begin(), kept.end(), true));
-    CHECK(std::count(fine.open.begin(), fine.open.end(), true) == std::count(start.mesh.open.begin(), start.mesh.open.end(), true));
+    CHECK(std::count(fine.open.begin(), fine.open.end(), true) ==
+          std::count(start.mesh.open.begin(), start.mesh.open.end(), true));
     for (const chart::Face& f : fine.faces) {
       const Eigen::Vector3d &a = fine.points[f[0]], &b = fine.points[f[1]], &c = fine.points[f[2]];
       CHECK((b - a).cross(c - a).norm() > 1e-6);

@@ -131,9 +131,9 @@ TEST_CASE("process: options that Gmsh cannot take are no success, and leave noth
   const auto run = [&](const std::string& words) {
     const std::string out = directory / "out.msh";
     std::filesystem::remove(out);
-    const int status = std::system(fmt::format("cd '{}' && HOME=home '{}' in.geo -o out.msh {} 2>stderr", directory / ".",
-                                               QMORPH_COMMAND, words)
-                                       .c_str());
+    const int status = std::system(
+        fmt::format("cd '{}' && HOME=home '{}' in.geo -o out.msh {} 2>stderr", directory / ".", QMORPH_COMMAND, words)
+            .c_str());
     CHECK(std::filesystem::exists(out) == (status == 0));
     CHECK(std::filesystem::is_empty(directory / "home"));
     return std::pair(WEXITSTATUS(status), read_file(directory / "stderr"));
@@ -144,7 +144,9 @@ TEST_CASE("process: options that Gmsh cannot take are no success, and leave noth
     const auto [status, said] = run(words);
     CAPTURE(said);
     CHECK(status == 2);
-    CHECK(said.rfind("qmorph: the options cannot be understood: '" + std::string(words[1] == 'o' ? "bad.opt" : "-string") + "'", 0) == 0);
+    CHECK(said.rfind("qmorph: the options cannot be understood: '" +
+                         std::string(words[1] == 'o' ? "bad.opt" : "-string") + "'",
+                     0) == 0);
   }
   const auto [status, said] = run("-option new.opt");
   CHECK(status == 0);

@@ -19,8 +19,8 @@ struct Worth {
   double sum = 0;    ///< what a try is judged by
 };
 
-/// The smallest scaled Jacobian counts up to 0.4, a tenth of it up to 0.7, and twice the mean metric of the thesis; quads beyond
-/// 1.25 times those that equilateral triangles with the same sides ask for count against it.
+/// The smallest scaled Jacobian counts up to 0.4, a tenth of it up to 0.7, and twice the mean metric of the thesis;
+/// quads beyond 1.25 times those that equilateral triangles with the same sides ask for count against it.
 Worth worth(const QuadMesh& mesh, const Eigen::Vector3d& normal, std::size_t triangles) {
   double least = 1, shapes = 0;
   for (const auto& q : mesh.quads) {

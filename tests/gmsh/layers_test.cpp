@@ -26,8 +26,8 @@ std::string block_in_box(const std::string& first, const std::string& ratio, boo
          "Line(5)={5,6}; Line(6)={6,7}; Line(7)={7,8}; Line(8)={8,5};\n"
          "Curve Loop(1)={5:8}; Curve Loop(2)={1:4}; Plane Surface(1)={1,2};\n"
          "Field[1]=BoundaryLayer; Field[1].EdgesList={1:4}; Field[1].FanNodesList={1:4}; Field[1].hwall_n=" +
-         first + "; Field[1].ratio=" + ratio + "; Field[1].thickness=.08; Field[1].hfar=.4; Field[1].Quads=" +
-         (quads ? "1" : "0") +
+         first + "; Field[1].ratio=" + ratio +
+         "; Field[1].thickness=.08; Field[1].hfar=.4; Field[1].Quads=" + (quads ? "1" : "0") +
          ";\nBoundaryLayer Field=1; Physical Curve(\"wall\")={1:4}; Physical Surface(\"fluid\")={1};\n";
 }
 
@@ -39,9 +39,10 @@ std::string extruded_wall(bool quads) {
 
 /// A quarter of a cylinder with rows from one rim to the other.
 std::string extruded_arc(bool quads) {
-  return std::string("Point(1)={0,0,0}; Point(2)={1,0,0}; Point(3)={0,1,0}; Circle(1)={2,1,3}; Transfinite Curve{1}=21;\n") +
-         "e[]=Extrude{0,0,1}{ Curve{1}; Layers{ {1,1,1,1,1,8}, {.01,.03,.07,.14,.24,1} };" + (quads ? " Recombine;" : "") +
-         " };\n";
+  return std::string(
+             "Point(1)={0,0,0}; Point(2)={1,0,0}; Point(3)={0,1,0}; Circle(1)={2,1,3}; Transfinite Curve{1}=21;\n") +
+         "e[]=Extrude{0,0,1}{ Curve{1}; Layers{ {1,1,1,1,1,8}, {.01,.03,.07,.14,.24,1} };" +
+         (quads ? " Recombine;" : "") + " };\n";
 }
 
 std::string transfinite(bool quads) {
@@ -113,10 +114,12 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
       gmsh::model::mesh::generate(2);
       gmsh::write(directory / "in.msh");
     }
-    const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--stats", directory / "out.json"});
+    const Result result =
+        run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--stats", directory / "out.json"});
     CAPTURE(result.err);
     CHECK(result.status == 0);
-    const std::set<Places> truth = quads_of(directory / "quads.geo", true), ours = quads_of(directory / "out.msh", false);
+    const std::set<Places> truth = quads_of(directory / "quads.geo", true),
+                           ours = quads_of(directory / "out.msh", false);
     REQUIRE(!truth.empty());
     const double kept = figure(read_file(directory / "out.json"), "layer_quads");
     CHECK(double(lost(truth, ours)) <= 0.02 * double(truth.size()));
@@ -151,8 +154,8 @@ TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, which is said 
   });
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--layers=off"});
   CHECK(mentions(result.err, "warning: surface 1: its quads are "));
-  const Result judged = run_qmorph(
-      {"--check", directory / "out.msh", "--against", directory / "in.msh", "--max-size-ratio", "1.5"});
+  const Result judged =
+      run_qmorph({"--check", directory / "out.msh", "--against", directory / "in.msh", "--max-size-ratio", "1.5"});
   CAPTURE(judged.err);
   CHECK(judged.status == 6);
   CHECK(mentions(judged.err, "qmorph: surface 1: its quads are "));

@@ -30,7 +30,8 @@ constexpr const char* kStrips =
     "Physical Curve(\"Bottom\", 4) = {1, 2};\nPhysical Curve(\"Top\", 5) = {4, 5};\n";
 
 constexpr const char* kDisk =
-    "SetFactory(\"OpenCASCADE\");\nDisk(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.4;\nPhysical Surface(\"disk\", 3) = {1};\n"
+    "SetFactory(\"OpenCASCADE\");\nDisk(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.4;\nPhysical Surface(\"disk\", 3) = "
+    "{1};\n"
     "Physical Curve(\"rim\", 4) = {1};\n";
 
 /// An eighth of a ball.
@@ -119,8 +120,9 @@ TEST_CASE("same bytes: every format, with what changes elements") {
 
 TEST_CASE("same bytes: every option of the conversion") {
   const Twins twins;
-  const std::vector<Words> options = {{"--all-quad"}, {"--cleanup-only"}, {"--orient"},   {"-save_all"}, {"--smoothing", "thesis"},
-                                      {"--layers", "off"}, {"--crease", "20"}, {"--drop-volumes"}, {"-3"}};
+  const std::vector<Words> options = {{"--all-quad"},     {"--cleanup-only"},        {"--orient"},
+                                      {"-save_all"},      {"--smoothing", "thesis"}, {"--layers", "off"},
+                                      {"--crease", "20"}, {"--drop-volumes"},        {"-3"}};
   for (const std::string input : {"strips.geo", "mixed.msh", "ball.geo"})
     for (const Words& words : options) twins.check(with({input, "-o", "out.msh"}, words));
 }

@@ -15,15 +15,16 @@
 
 namespace {
 
+using Eigen::Vector3d;
 using qmorph::Index;
 using qmorph::Patch;
-using Eigen::Vector3d;
 using Quad = std::array<Index, 4>;
 
 enum class Diagonals { rising, falling, alternating };
 
 /// nx by ny cells, node (i, j) at place(i, j), each cut in two.
-Patch grid(Index nx, Index ny, const std::function<Vector3d(Index, Index)>& place, Diagonals diagonals = Diagonals::rising) {
+Patch grid(Index nx, Index ny, const std::function<Vector3d(Index, Index)>& place,
+           Diagonals diagonals = Diagonals::rising) {
   Patch patch;
   for (Index j = 0; j <= ny; ++j)
     for (Index i = 0; i <= nx; ++i) patch.points.push_back(place(i, j));
@@ -133,9 +134,7 @@ TEST_CASE("layers: heights may grow, double and differ from column to column") {
 }
 
 TEST_CASE("layers: a surface in space has its layers, flat or not") {
-  const auto place = [](Index i, Index j) {
-    return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j);
-  };
+  const auto place = [](Index i, Index j) { return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j); };
   CHECK(whole_cells(grid(40, 8, place), 40, 8) == 320);
 }
 
@@ -160,7 +159,8 @@ TEST_CASE("layers: quads that are there already stay first") {
   CHECK_MESSAGE(broken.empty(), broken.front());
 }
 
-TEST_CASE("layers: where the wall ends in a sharp corner, an odd number of triangles at the tip cuts one spoke in two") {
+TEST_CASE(
+    "layers: where the wall ends in a sharp corner, an odd number of triangles at the tip cuts one spoke in two") {
   // Rows round a plate of one edge, in spokes of 180 / 3 degrees at both ends, and a ring of other triangles around.
   for (const int spokes : {2, 3, 4, 5}) {
     const Index rows = 6, around = Index(2 * spokes + 2 * 4);

@@ -136,7 +136,8 @@ TEST_CASE("nodes that are off by a hundredth of an edge break no more than the s
     Patch patch = qmorph::test::random_domain(seed).patch;
     qmorph::test::Rng rng(seed);
     const Eigen::Vector3d a = patch.points[patch.triangles[0][1]] - patch.points[patch.triangles[0][0]];
-    const Eigen::Vector3d normal = a.cross(patch.points[patch.triangles[0][2]] - patch.points[patch.triangles[0][0]]).normalized();
+    const Eigen::Vector3d normal =
+        a.cross(patch.points[patch.triangles[0][2]] - patch.points[patch.triangles[0][0]]).normalized();
     for (Eigen::Vector3d& p : patch.points) {
       const Eigen::Vector3d step(rng.between(-1, 1), rng.between(-1, 1), rng.between(-1, 1));
       p += 0.01 * a.norm() * (step - step.dot(normal) * normal);

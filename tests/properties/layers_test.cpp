@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "quality/directed_size.hpp"
 #include "qmorph/convert.hpp"
+#include "quality/directed_size.hpp"
 #include "support/domains.hpp"
 #include "support/draft.hpp"
 #include "support/invariants.hpp"
@@ -122,8 +122,8 @@ TEST_CASE("layers: nodes of layers stay where they are, in any position in space
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
     qmorph::test::Rng rng(~seed);
-    const qmorph::Patch moved = qmorph::test::moved(domain.patch, rng.between(0.1, 10), qmorph::test::random_rotation(rng),
-                                                    Eigen::Vector3d(1, 2, 3));
+    const qmorph::Patch moved = qmorph::test::moved(domain.patch, rng.between(0.1, 10),
+                                                    qmorph::test::random_rotation(rng), Eigen::Vector3d(1, 2, 3));
     const auto flat = qmorph::convert(domain.patch).report;
     const auto [mesh, report] = qmorph::convert(moved);
     CAPTURE(seed);
@@ -166,7 +166,9 @@ TEST_CASE("layers: on a cylinder they are as on the plane that is rolled up, and
   CHECK(double(quads) == doctest::Approx(double(flat_quads)).epsilon(0.05));
 }
 
-TEST_CASE("layers: one thread and two make the same bytes, and turned over or renumbered domains have nearly the same layers") {
+TEST_CASE(
+    "layers: one thread and two make the same bytes, and turned over or renumbered domains have nearly the same "
+    "layers") {
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
     qmorph::Options options;
@@ -202,7 +204,8 @@ TEST_CASE("layers: ordinary random domains have hardly any") {
 TEST_CASE("stretched triangles: what is no layer becomes quads of the same sizes, as stretched as the triangles") {
   std::size_t flat_quads = 0, quads = 0, flat_kept = 0, kept = 0;
   const auto is_kept = [](const qmorph::Patch& before, const QuadMesh& after) {
-    return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <= qmorph::kLargestSizeRatio;
+    return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <=
+           qmorph::kLargestSizeRatio;
   };
   for (std::uint64_t seed = 0; seed < seeds(60); ++seed) {
     const auto domain = qmorph::test::random_domain(seed);

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
-// The laws of the engine on random curved surfaces. Re-run one seed with: qmorph_campaign 2000000000+SEED 2000000000+SEED
+// SPDX-License-Identifier: GPL-2.0-or-later The laws of the engine on random curved surfaces. Re-run one seed with:
+// qmorph_campaign 2000000000+SEED 2000000000+SEED
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -82,7 +82,8 @@ TEST_CASE("random domains rolled onto cylinders and cones are worth what they ar
   CHECK(100 * refused <= seeds(300) + 99);
   CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
   CHECK(double(bent.quads) == doctest::Approx(double(flat.quads)).epsilon(0.02));
-  // A third of what is lost is lost in the plane, too, when nodes are off by a thousandth of an edge: exact lattices are easier.
+  // A third of what is lost is lost in the plane, too, when nodes are off by a thousandth of an edge: exact lattices
+  // are easier.
   const double scatter = 0.002 * std::sqrt(300 / double(seeds(300)));
   CHECK(bent.share() <= flat.share() * 1.08 + scatter);
 }

@@ -25,7 +25,8 @@ struct Ran {
   double peak_bytes = 0;  ///< resident memory
 };
 
-/// Runs `task` in a child process; one that takes more than `limit` seconds of the processor is ended. What it throws goes to stderr.
+/// Runs `task` in a child process; one that takes more than `limit` seconds of the processor is ended. What it throws
+/// goes to stderr.
 /// \pre this process has one thread
 Ran run_apart(const std::function<Figures()>& task, double limit);
 

@@ -54,9 +54,9 @@ void add_pictures(const Request& request, const report::Scene& after, const Mode
 
 std::vector<std::pair<std::string, std::string>> side_files(const Request& request) {
   std::vector<std::pair<std::string, std::string>> files;
-  const std::array all = {std::pair("--stats", &request.stats), std::pair("--report", &request.report),
-                          std::pair("--film", &request.film),   std::pair("--svg", &request.svg),
-                          std::pair("--pdf", &request.pdf),     std::pair("--tikz", &request.tikz),
+  const std::array all = {std::pair("--stats", &request.stats),    std::pair("--report", &request.report),
+                          std::pair("--film", &request.film),      std::pair("--svg", &request.svg),
+                          std::pair("--pdf", &request.pdf),        std::pair("--tikz", &request.tikz),
                           std::pair("--depfile", &request.depfile)};
   for (const auto& [option, path] : all)
     if (!path->empty()) files.emplace_back(option, *path);

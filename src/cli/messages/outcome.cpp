@@ -40,10 +40,10 @@ void print_triangles(const Request& request, const ModelReport& model, std::ostr
     surfaces.push_back(surface.tag);
   }
   if (triangles)
-    err << fmt::format("{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
-                       "leaves none\n",
-                       triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s",
-                       fmt::join(surfaces, ", "));
+    err << fmt::format(
+        "{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
+        "leaves none\n",
+        triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "));
 }
 
 /// Gmsh may say one thing about each of a million nodes.
@@ -70,8 +70,8 @@ void name_ignored_options(const Request& request, const adapter::OpenedModel& op
     warn("Mesh.SubdivisionAlgorithm is ignored: triangles become quads without being divided");
   const int order = static_cast<int>(adapter::get_option("Mesh.ElementOrder")), has = adapter::order_of_surfaces();
   if (request.order_chosen && has > 1 && order > has)
-    warn(fmt::format("order {} is ignored: the elements of {} are of order {}, and their curved edges would be lost", order,
-                     name_of_input(request), has));
+    warn(fmt::format("order {} is ignored: the elements of {} are of order {}, and their curved edges would be lost",
+                     order, name_of_input(request), has));
 }
 
 void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,

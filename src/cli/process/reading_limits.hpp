@@ -9,9 +9,10 @@
 
 namespace qmorph::cli {
 
-/// While it lives, this process may take no more time and memory than reading meshes of this size needs: Gmsh's readers believe in
-/// what a broken file says of itself, or look for ever for what it does not have. Beyond, the process dies, or there is not enough
-/// memory. No limit where one of the files is a script or a geometry, which may take as long as it likes.
+/// While it lives, this process may take no more time and memory than reading meshes of this size needs: Gmsh's readers
+/// believe in what a broken file says of itself, or look for ever for what it does not have. Beyond, the process dies,
+/// or there is not enough memory. No limit where one of the files is a script or a geometry, which may take as long as
+/// it likes.
 class ReadingLimits {
  public:
   explicit ReadingLimits(const std::vector<std::string>& files);

@@ -18,7 +18,7 @@ class Slate {
   ExitStatus status() const { return status_; }
 
   adapter::TemporaryNames files;
-  bool has_ended = false;             ///< the command has run to its end
+  bool has_ended = false;            ///< the command has run to its end
   bool shows_foreign_words = false;  ///< what libraries have said is worth telling
 
  private:

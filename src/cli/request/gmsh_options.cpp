@@ -131,8 +131,9 @@ constexpr std::array<std::string_view, 21> kAlgorithms = {
 
 /// What means something only where Gmsh makes elements.
 constexpr std::array<std::string_view, 17> kMeshing = {
-    "clmin",   "clmax",     "clscale",      "clextend", "clcurv", "algo",           "smooth",         "epslc1d", "swapangle",
-    "rand",    "aniso_max", "smooth_ratio", "edgelmin", "bgm",    "Mesh.Algorithm", "Mesh.Smoothing", "Mesh.RandomFactor"};
+    "clmin",    "clmax",   "clscale",        "clextend",       "clcurv",           "algo",
+    "smooth",   "epslc1d", "swapangle",      "rand",           "aniso_max",        "smooth_ratio",
+    "edgelmin", "bgm",     "Mesh.Algorithm", "Mesh.Smoothing", "Mesh.RandomFactor"};
 
 bool is_number(const std::string& text) {
   double value = 0;

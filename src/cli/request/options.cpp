@@ -55,7 +55,8 @@ constexpr std::array kRows = {
     Row{"no-triangles", "--no-triangles", 0, "for --check: not one triangle"},
     Row{"against", "--against FILE", 1, "for --check: the triangles that IN was made from, to compare with"},
     Row{"max-distance", "--max-distance X", 1, "for --check: nowhere farther from them than X edges"},
-    Row{"max-size-ratio", "--max-size-ratio X", 1, "for --check: quads at most X times as long, or as short, as they are"},
+    Row{"max-size-ratio", "--max-size-ratio X", 1,
+        "for --check: quads at most X times as long, or as short, as they are"},
     Row{"help", "--help", 0, "show this text"},
     Row{"version", "--version", 0, "show the version"},
 };

@@ -31,7 +31,8 @@ void check_thresholds(const Request& request, const Given& given) {
     throw UsageError(
         "--min-sj, --max-irregular, --no-triangles, --against, --max-distance and --max-size-ratio go with --check");
   if (any(given, std::array{"--max-distance", "--max-size-ratio"}) && !given("--against"))
-    throw UsageError("--max-distance and --max-size-ratio compare with other triangles; name their mesh: --against FILE");
+    throw UsageError(
+        "--max-distance and --max-size-ratio compare with other triangles; name their mesh: --against FILE");
   if (!request.check) return;
   for (const std::string option : kWriting)
     if (given(option == "-o" ? "--o" : option)) throw UsageError("--check writes nothing; leave out " + option);

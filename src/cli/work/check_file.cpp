@@ -46,8 +46,7 @@ int check_file(const Call& call) {
   const Request& request = call.request;
   adapter::check_readable(request.input);
   const ModelReport model = measure(call);
-  if (model.surfaces.empty())
-    throw InputError(fmt::format("{} has no surface with elements", name_of_input(request)));
+  if (model.surfaces.empty()) throw InputError(fmt::format("{} has no surface with elements", name_of_input(request)));
   if (request.verbosity >= 1) answer(report::check_line(model) + '\n', call.out);
   const std::vector<std::string> reasons = find_reasons(model, request.thresholds);
   for (const std::string& reason : reasons) call.err << "qmorph: " << reason << '\n';

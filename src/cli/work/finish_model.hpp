@@ -12,7 +12,8 @@
 
 namespace qmorph::cli {
 
-/// What comes after the quads: volumes on them, the order of all elements, partitions. Gmsh's warnings go into `opened`.
+/// What comes after the quads: volumes on them, the order of all elements, partitions. Gmsh's warnings go into
+/// `opened`.
 /// \throws InputError, BrokenModel
 /// \return what is not as it should be
 std::vector<std::string> finish_model(const Request& request, adapter::OpenedModel& opened, adapter::Session& session);

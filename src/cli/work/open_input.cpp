@@ -49,8 +49,8 @@ void begin_session(const Call& call, adapter::Session& session) {
 
 adapter::OpenedModel open_as_it_is(const Call& call) {
   const Request& request = call.request;
-  return open_input(
-      call, {.merged = request.merged, .no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
+  return open_input(call,
+                    {.merged = request.merged, .no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
 }
 
 adapter::OpenedModel open_for_conversion(const Call& call, const adapter::OutputPlan& plan) {

@@ -38,9 +38,10 @@ std::vector<std::string> find_reasons(const ModelReport& model, const Thresholds
       say("the mesh of --against has no triangles where its quads are");
     if (const DirectedSize size = median(surface.conversion.sizes);
         thresholds.max_size_ratio && largest_ratio(size) > *thresholds.max_size_ratio)
-      say(fmt::format("its quads are {:.2f} times as long as the triangles were in the direction in which these are longest, and "
-                      "{:.2f} times in the other (medians); between 1/{:g} and {:g} is asked for",
-                      size.along, size.across, *thresholds.max_size_ratio, *thresholds.max_size_ratio));
+      say(fmt::format(
+          "its quads are {:.2f} times as long as the triangles were in the direction in which these are longest, and "
+          "{:.2f} times in the other (medians); between 1/{:g} and {:g} is asked for",
+          size.along, size.across, *thresholds.max_size_ratio, *thresholds.max_size_ratio));
     if (thresholds.no_triangles && surface.triangles_in)
       say(fmt::format("{} triangle{}, and none is allowed", surface.triangles_in,
                       surface.triangles_in == 1 ? "" : "s"));

@@ -21,7 +21,8 @@ struct SurfaceSide {
   int order;       ///< of its element
 };
 
-std::vector<SurfaceSide> sides_of_surfaces(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces, Index& triangles) {
+std::vector<SurfaceSide> sides_of_surfaces(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces,
+                                           Index& triangles) {
   std::vector<SurfaceSide> sides;
   triangles = 0;
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {

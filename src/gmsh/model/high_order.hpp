@@ -15,8 +15,8 @@ namespace qmorph::adapter {
 /// \throws SurfaceError if it has elements that are neither triangles nor quads, or of several orders
 int order_of(const EntityMesh& surface);
 
-/// Makes the elements of a converted surface of the order that it had before: quads with inner nodes (9 for order 2) unless
-/// the surface had quads without (8), or `incomplete`. Edges of the input whose ends have not moved keep their
+/// Makes the elements of a converted surface of the order that it had before: quads with inner nodes (9 for order 2)
+/// unless the surface had quads without (8), or `incomplete`. Edges of the input whose ends have not moved keep their
 /// nodes, quads of the input keep all of theirs.
 /// \param surface linear, with all nodes that it owns; gets more
 /// \param next_tag for new nodes

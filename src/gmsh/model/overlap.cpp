@@ -98,8 +98,8 @@ std::vector<std::vector<Sheet>> group_by_plane(const std::vector<Sheet>& sheets,
   return groups;
 }
 
-/// Edges with one element. Inside a mesh each neighbour of a node comes twice, once on either side of the edge between them, and the
-/// numbers of all cancel; so edges have to be compared only where they do not.
+/// Edges with one element. Inside a mesh each neighbour of a node comes twice, once on either side of the edge between
+/// them, and the numbers of all cancel; so edges have to be compared only where they do not.
 std::vector<OutlineEdge> find_outline(const ModelMesh& mesh, const std::vector<Sheet>& group,
                                       std::vector<Index>& neighbours) {
   struct Candidate {
@@ -148,8 +148,8 @@ std::vector<OutlineEdge> find_outline(const ModelMesh& mesh, const std::vector<S
   return outline;
 }
 
-/// How often the plane is covered just inside each edge of the outline: by the edges above, of which those that run to the left
-/// have the inside below them. \return an edge where it is more than once
+/// How often the plane is covered just inside each edge of the outline: by the edges above, of which those that run to
+/// the left have the inside below them. \return an edge where it is more than once
 std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& outline) {
   struct Sample {
     Vec2 place;

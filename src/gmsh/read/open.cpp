@@ -139,7 +139,8 @@ void check_not_empty(const std::string& path) {
   ::gmsh::model::getEntities(entities);
   ::gmsh::view::getTags(views);
   if (entities.empty() && views.empty())
-    throw InputError(fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
+    throw InputError(
+        fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
 }
 
 /// What -bgm does in Gmsh's own command.

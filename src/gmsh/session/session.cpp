@@ -35,8 +35,8 @@ std::string get_last_error() {
   return error;
 }
 
-/// Gmsh's window library makes a directory in the user's one when it starts, window or not. Where Gmsh has a place of its own,
-/// it is to be there.
+/// Gmsh's window library makes a directory in the user's one when it starts, window or not. Where Gmsh has a place of
+/// its own, it is to be there.
 class HomeOfGmsh {
  public:
   HomeOfGmsh() {

@@ -22,8 +22,8 @@ class Session {
   Session& operator=(const Session&) = delete;
   /// Gmsh is not ended: for a process that ends soon, and a model that cannot be taken down.
   void leave() { left_ = true; }
-  /// What Gmsh said of the arguments (-option, -string) before anyone could listen; of several complaints the last, and in a
-  /// process that has had a session before perhaps one of that.
+  /// What Gmsh said of the arguments (-option, -string) before anyone could listen; of several complaints the last, and
+  /// in a process that has had a session before perhaps one of that.
   const std::string& complaint() const { return complaint_; }
 
  private:

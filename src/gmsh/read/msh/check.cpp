@@ -24,8 +24,8 @@ bool NodeSet::has(long long tag) const {
 void MshState::check_node_tag(long long tag) const {
   if (tag > std::numeric_limits<int>::max())
     throw InputError(
-        fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh", in.path(),
-                    tag, std::numeric_limits<int>::max()));
+        fmt::format("{}: node numbers up to {} leave no room (the largest for Gmsh is {}); renumber the mesh",
+                    in.path(), tag, std::numeric_limits<int>::max()));
   if (tag < (version < 4 ? 0 : 1)) in.fail(fmt::format("has a node with the number {}", tag));
 }
 

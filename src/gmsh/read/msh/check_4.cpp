@@ -117,7 +117,8 @@ void check_elements_of_4(MshState& state) {
     state.check_type(block.word);
     const MshType type = msh_type(block.word);
     if (type.dim != block.dim)
-      in.fail(fmt::format("contradicts itself: elements of type {} on an entity of dimension {}", block.word, block.dim));
+      in.fail(
+          fmt::format("contradicts itself: elements of type {} on an entity of dimension {}", block.word, block.dim));
     state.entities.emplace(block.dim, block.tag);
     in.require_room(block.count, in.is_binary() ? 8 * (1 + type.nodes) : 2 * (1 + type.nodes), "elements in a block");
     found += block.count;
@@ -140,9 +141,10 @@ void check_periodic_of_4(MshState& state) {
   for (long long i = 0; i < links; ++i) {
     const long long dim = in.integer(), slave = in.integer(), master = in.integer();
     for (const long long tag : {slave, master})
-      if (state.has_nodes && (dim < 0 || dim > 2 || !state.entities.count({static_cast<int>(dim), static_cast<int>(tag)})))
-        in.fail(fmt::format("contradicts itself: $Periodic names the entity {} of dimension {}, which it does not have", tag,
-                            dim));
+      if (state.has_nodes &&
+          (dim < 0 || dim > 2 || !state.entities.count({static_cast<int>(dim), static_cast<int>(tag)})))
+        in.fail(fmt::format("contradicts itself: $Periodic names the entity {} of dimension {}, which it does not have",
+                            tag, dim));
     if (state.version >= 4.1) {
       const long long reals = in.size();
       in.require_room(reals, in.is_binary() ? sizeof(double) : 2, "numbers of a transformation");

@@ -43,9 +43,10 @@ void check_element(const MshState& state, const Element& element, Numbers& numbe
   if (element.number < 0 || element.number > std::numeric_limits<int>::max())
     state.in.fail(fmt::format("has an element with the number {}, and Gmsh cannot keep such numbers", element.number));
   if (element.entity < 0 || element.entity > std::numeric_limits<int>::max())
-    state.in.fail(fmt::format("contradicts itself: element {} has the elementary tag {}, and Gmsh cannot keep tags below 0 "
-                              "or above {}",
-                              element.number, element.entity, std::numeric_limits<int>::max()));
+    state.in.fail(
+        fmt::format("contradicts itself: element {} has the elementary tag {}, and Gmsh cannot keep tags below 0 "
+                    "or above {}",
+                    element.number, element.entity, std::numeric_limits<int>::max()));
   if (element.parent != 0 && !numbers.has(element.parent))
     state.in.fail(fmt::format("contradicts itself: element {} is a part of element {}, which does not come before it",
                               element.number, element.parent));
@@ -73,9 +74,7 @@ void read_tags(MshState& state, long long count, Element& element) {
     state.in.fail(fmt::format("contradicts itself: element {} is in {} partitions, the first is {}", element.number,
                               partitions, partition));
   if (state.in.is_binary()) {
-    const bool has_parent = state.version < 2.2 ? count > 3
-                            : partitions        ? count > 3 + partitions
-                                                : count > 2;
+    const bool has_parent = state.version < 2.2 ? count > 3 : partitions ? count > 3 + partitions : count > 2;
     if (has_parent) element.parent = last;
   } else if (count == 4 + partitions && count > 3) {
     element.parent = last;
@@ -92,8 +91,8 @@ void take_elements_of_1(MshState& state, long long count, Numbers& numbers) {
     const long long nodes = state.in.integer();
     state.check_type(element.type);
     if (nodes != static_cast<long long>(msh_type(element.type).nodes))
-      state.in.fail(fmt::format("contradicts itself: element {} of type {} has {} nodes", element.number, element.type,
-                                nodes));
+      state.in.fail(
+          fmt::format("contradicts itself: element {} of type {} has {} nodes", element.number, element.type, nodes));
     check_element(state, element, numbers);
     check_element_nodes(state, element.number, nodes);
   }
@@ -156,7 +155,8 @@ void check_nodes_before_4(MshState& state, bool parametric) {
     }
     if (state.version >= 3 && in.integer() != 0) {
       const long long dim = in.integer();
-      if (dim < 0 || dim > 3) in.fail(fmt::format("contradicts itself: node {} is on an entity of dimension {}", tag, dim));
+      if (dim < 0 || dim > 3)
+        in.fail(fmt::format("contradicts itself: node {} is on an entity of dimension {}", tag, dim));
       in.skip_reals(static_cast<std::size_t>(dim));
     }
   }

@@ -53,8 +53,9 @@ void check_complete(const std::string& path) {
   if (word != "$End" && word != "$END") throw InputError(fmt::format("{} ends too soon: it is not complete", path));
 }
 
-/// Goes through a file section by section. Gmsh takes as many elements as the file says that there are, without a word about more,
-/// about a section that is missing, or about numbers that it cannot hold; and where bytes are not what it expects, it crashes.
+/// Goes through a file section by section. Gmsh takes as many elements as the file says that there are, without a word
+/// about more, about a section that is missing, or about numbers that it cannot hold; and where bytes are not what it
+/// expects, it crashes.
 class MshCheck {
  public:
   MshCheck(const std::string& path, std::string_view text, double version)
@@ -97,7 +98,8 @@ void MshCheck::read_header() {
   const bool swapped = one == std::string_view("\0\0\0\1", 4);
   if (!swapped && one != std::string_view("\1\0\0\0", 4)) in_.fail("says that it is binary and is not");
   if (version >= 4 && size != sizeof(std::size_t))
-    in_.fail(fmt::format("is binary with numbers of {} bytes, and Gmsh reads those of {} alone", size, sizeof(std::size_t)));
+    in_.fail(
+        fmt::format("is binary with numbers of {} bytes, and Gmsh reads those of {} alone", size, sizeof(std::size_t)));
   if (version >= 4 && version < 4.1) in_.fail("is binary and of version 4.0, which Gmsh reads as text alone");
   in_.be_binary(swapped);
   in_.integer();
@@ -113,7 +115,8 @@ void MshCheck::read_names() {
     const long long dim = in_.word(), tag = in_.word();
     const std::string line(in_.line());
     if (dim < 0 || dim > 3) in_.fail(fmt::format("contradicts itself: a group of dimension {}", dim));
-    if (line.size() > kLongestLine) in_.fail(fmt::format("has a name of {} bytes, and Gmsh reads {}", line.size(), kLongestLine));
+    if (line.size() > kLongestLine)
+      in_.fail(fmt::format("has a name of {} bytes, and Gmsh reads {}", line.size(), kLongestLine));
     const std::size_t open = line.find('"'), close = line.rfind('"');
     if (open == close || line.find('"', open + 1) == close) continue;
     contents_.odd_names.push_back(

@@ -136,7 +136,8 @@ void MshNumbers::skip_real_words(std::size_t count) {
 
 void MshNumbers::require_room(long long count, std::size_t bytes_each, std::string_view of_what) {
   if (count < 0 || static_cast<unsigned long long>(count) > left() / bytes_each)
-    fail(fmt::format("contradicts itself: it says that it has {} {}, and ends {} bytes further on", count, of_what, left()));
+    fail(fmt::format("contradicts itself: it says that it has {} {}, and ends {} bytes further on", count, of_what,
+                     left()));
 }
 
 }  // namespace qmorph::adapter

@@ -55,8 +55,8 @@ class MshNumbers {
   std::string_view peek_token();
   std::string_view peek_bytes(std::size_t count) const { return text_.substr(at_, count); }
 
-  /// Refuses counts of things that need at least so many bytes each where the file has not so many any more: before memory is
-  /// taken for them.
+  /// Refuses counts of things that need at least so many bytes each where the file has not so many any more: before
+  /// memory is taken for them.
   void require_room(long long count, std::size_t bytes_each, std::string_view of_what);
 
   [[noreturn]] void fail(const std::string& what) const;
