@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Reads a mesh file and measures its surfaces, for the scripts beside this file (draw, table).
 
 Deliberately without a line of qmorph: what these scripts print and draw must not repeat an error of the library.

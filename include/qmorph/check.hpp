@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A second opinion on what the engine has made, against the input and in space: for those who must know before they use it.
+/// A second opinion on what the engine has made, against the input and in space: for those who must know before they
+/// use it.
 
 #include <Eigen/Core>
 #include <optional>
@@ -19,10 +20,10 @@ struct Defect {
 /// Whether the quads of the input have to be in the result: convert() keeps them, improve() does not.
 enum class InputQuads { kept, free };
 
-/// What is wrong with the quads that were made of a patch: a boundary or constraint edge that is gone, a fixed node that has moved,
-/// elements that do not fit together, overlap, or have a corner that is not convex, a change of area; on a curved surface corners
-/// that are turned over (see QualityAccumulator), but where the surface is folded itself, nodes beside it, and holes or
-/// handles that come or go. Nothing if nothing is. Cost: linear.
+/// What is wrong with the quads that were made of a patch: a boundary or constraint edge that is gone, a fixed node
+/// that has moved, elements that do not fit together, overlap, or have a corner that is not convex, a change of area;
+/// on a curved surface corners that are turned over (see QualityAccumulator), but where the surface is folded itself,
+/// nodes beside it, and holes or handles that come or go. Nothing if nothing is. Cost: linear.
 std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads = InputQuads::kept);
 
 /// A quad that is inverted, or has a corner of 180 degrees or more.

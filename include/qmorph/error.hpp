@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The one family of exceptions that the library throws. Each says what is wrong, where, and what to do, in a line for people
-/// and in fields for programs; none is thrown from inside the advancing front, where "this step is not possible here" is an
-/// answer.
+/// The one family of exceptions that the library throws. Each says what is wrong, where, and what to do, in a line for
+/// people and in fields for programs; none is thrown from inside the advancing front, where "this step is not possible
+/// here" is an answer.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -19,8 +20,8 @@ enum class ErrorKind {
   output,          ///< it cannot be written
   cancelled,       ///< `Options::progress` said so
   // Why one surface cannot be converted:
-  surface,     ///< none of the following
-  not_finite,  ///< a coordinate is NaN, infinite, or too large to compute with
+  surface,        ///< none of the following
+  not_finite,     ///< a coordinate is NaN, infinite, or too large to compute with
   no_area,        ///< its triangles have no area in sum: it is closed, folded or degenerate
   not_manifold,   ///< more than two elements meet at an edge, or they are not oriented alike
   overlap,        ///< it lies over itself

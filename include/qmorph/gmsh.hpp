@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The door for programs that already run the Gmsh API: `qmorph::gmsh::recombine()` in the place of
 /// `gmsh::model::mesh::recombine()`. Mentions no Gmsh type; link `qmorph::gmsh`.
 ///
-/// `qmorph::gmsh` is Gmsh's own namespace by another name, and our functions can be seen from there. With a namespace of our
-/// own called `gmsh`, no program that says `using namespace qmorph` could write `gmsh::` any more.
+/// `qmorph::gmsh` is Gmsh's own namespace by another name, and our functions can be seen from there. With a namespace
+/// of our own called `gmsh`, no program that says `using namespace qmorph` could write `gmsh::` any more.
 
 #include <Eigen/Core>
 #include <array>
@@ -86,8 +87,8 @@ namespace session {
 /// was and reported as left.
 /// \param surfaces tags of the surfaces to convert; all if empty. A tag that the model does not have is a UsageError.
 /// \throws UsageError, InputError if the mesh of the model contradicts itself, Cancelled, what `Options::progress` and
-///         `Options::observer` throw; the mesh is unchanged then. (Nodes that a file gives to entities which do not use them
-///         may belong to others already, which Gmsh calls reclassification.)
+///         `Options::observer` throw; the mesh is unchanged then. (Nodes that a file gives to entities which do not use
+///         them may belong to others already, which Gmsh calls reclassification.)
 /// Cost: linear in the size of the model.
 ModelReport recombine(const Options& options = {}, const std::vector<int>& surfaces = {});
 
@@ -96,22 +97,22 @@ ModelReport recombine(const Options& options = {}, const std::vector<int>& surfa
 /// Surfaces come out as converted or left.
 ModelReport improve_quads(const Options& options = {}, const std::vector<int>& surfaces = {});
 
-/// Figures of surfaces as they are; nothing changes. Surfaces come out as already_quads, whatever they consist of, those
-/// that have no figures (not a manifold, no orientation) with a reason.
-/// \param before surfaces by tag, as read_surfaces() gives them: where one of the same tag is given, the report has its `fidelity` to that,
-///        flat or curved
+/// Figures of surfaces as they are; nothing changes. Surfaces come out as already_quads, whatever they consist of,
+/// those that have no figures (not a manifold, no orientation) with a reason.
+/// \param before surfaces by tag, as read_surfaces() gives them: where one of the same tag is given, the report has its
+///        `fidelity` to that, flat or curved
 ModelReport measure_surfaces(const std::vector<int>& surfaces = {}, const std::map<int, Patch>& before = {});
 
-/// Surfaces of the current model by tag, each as one patch without constraints, to measure another mesh of them against.
-/// Those that have no orientation or are no manifolds are not there.
+/// Surfaces of the current model by tag, each as one patch without constraints, to measure another mesh of them
+/// against. Those that have no orientation or are no manifolds are not there.
 std::map<int, Patch> read_surfaces(const std::vector<int>& surfaces = {});
 
 /// Splits edges of curves, and the triangles beside them, so that every region (see `convert()`) gets an even number of
 /// sides: `recombine()` leaves no triangle then. It is the only call that changes curves. Existing nodes stay.
 /// \param surfaces as for `recombine()`; others, and edges that they share, stay as they are
 /// \param keep_curves tags of curves that get no node
-/// \throws UsageError for a surface or a curve that the model does not have; InputError as `recombine()` does. The model is
-///         unchanged then.
+/// \throws UsageError for a surface or a curve that the model does not have; InputError as `recombine()` does. The
+///         model is unchanged then.
 EvenReport make_even(const std::vector<int>& surfaces = {}, const std::vector<int>& keep_curves = {});
 
 }  // namespace session

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How a result comes about, for those who want to watch: each step of the advancing front, and the surface after each stage.
-/// It costs nothing while nobody watches, and changes no result.
+/// How a result comes about, for those who want to watch: each step of the advancing front, and the surface after each
+/// stage. It costs nothing while nobody watches, and changes no result.
 
 #include <Eigen/Core>
 #include <array>
@@ -35,7 +35,8 @@ enum class SideEdge {
   halved,    ///< an edge to another part of the front, cut in two so that no odd loop is left
 };
 
-/// Where the front works: a point (x, y) of it is `origin + x * axis_u + y * axis_v` in the model. The axes have length 1.
+/// Where the front works: a point (x, y) of it is `origin + x * axis_u + y * axis_v` in the model. The axes have length
+/// 1.
 struct FlatFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
@@ -49,8 +50,8 @@ struct FrontEdge {
   bool origin_corner = false, target_corner = false;  ///< its state: which of its ends are corners (thesis 2.2.2)
 };
 
-/// A front before its first step. Numbers of nodes, faces and edges are this front's own, and may be used again for others when
-/// what had them is gone. Spans are valid during the call.
+/// A front before its first step. Numbers of nodes, faces and edges are this front's own, and may be used again for
+/// others when what had them is gone. Spans are valid during the call.
 struct FrontStart {
   std::size_t surface = 0;  ///< row of the patches of convert_all(), 0 for convert(); in a Gmsh model its tag
   FlatFrame frame;
@@ -92,7 +93,8 @@ class FrontObserver {
 
 // --- the surface after each stage -----------------------------------------------------------------------
 
-/// The stages in their order. `input` is the mesh before all of them; `smoothing` the rough one by which cleanup judges.
+/// The stages in their order. `input` is the mesh before all of them; `smoothing` the rough one by which cleanup
+/// judges.
 enum class Stage { input, front, elimination, smoothing, cleanup, final_smoothing, repair };
 inline constexpr std::size_t kStages = 7;
 
@@ -106,8 +108,8 @@ struct StageView {
   double seconds = 0;  ///< of the stage alone, all regions together
   const QuadMesh& mesh;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit normal of its plane; zero if it is curved
-  /// Of the last stage: for each inner edge, its length over that of the input's edges nearby (the median of the 12 whose
-  /// middles are nearest).
+  /// Of the last stage: for each inner edge, its length over that of the input's edges nearby (the median of the 12
+  /// whose middles are nearest).
   std::span<const double> size_ratios;
 };
 
@@ -118,14 +120,14 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large one, or once more with other
-  /// constants of a small one. Who is returned sees its steps; null: nobody does. Fronts run side by side: may be called from
-  /// several threads at a time.
+  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large one, or once more with
+  /// other constants of a small one. Who is returned sees its steps; null: nobody does. Fronts run side by side: may be
+  /// called from several threads at a time.
   virtual std::unique_ptr<FrontObserver> front_starts(const FrontStart&) { return nullptr; }
 
-  /// Of the fronts of a surface, those whose quads the result was made from; the others' observers are destroyed. This and
-  /// stage_done() are called in the end, in the order of the surfaces, by the thread that called the library; never for a
-  /// surface that could not be converted.
+  /// Of the fronts of a surface, those whose quads the result was made from; the others' observers are destroyed. This
+  /// and stage_done() are called in the end, in the order of the surfaces, by the thread that called the library; never
+  /// for a surface that could not be converted.
   virtual void front_kept(std::size_t /*surface*/, std::unique_ptr<FrontObserver>) {}
 
   /// Whether stage_done() is to be called, which takes a copy of the mesh for each stage.

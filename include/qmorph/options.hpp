@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Every number of the algorithm that a caller may want to change. Angles are in radians, times in seconds; lengths are
 /// never absolute: they are relative to edges nearby, and have no unit.
@@ -17,7 +18,8 @@ class Observer;
 struct FrontOptions {
   /// An end of a front edge is a corner (state bit 1) below this angle. Thesis 2.2.2.
   double corner_angle = 0.75 * std::numbers::pi;
-  /// Two front edges are seamed below this angle; `seam_angle_many` where 5 quads or more meet. Thesis 2.2.4, table 4.1.
+  /// Two front edges are seamed below this angle; `seam_angle_many` where 5 quads or more meet. Thesis 2.2.4, table
+  /// 4.1.
   double seam_angle = 0.25 * std::numbers::pi;
   double seam_angle_many = 0.15 * std::numbers::pi;
   /// Neighbouring front edges whose lengths differ by more than this factor are a transition. Thesis 2.2.4.
@@ -32,15 +34,16 @@ struct FrontOptions {
 struct CleanupOptions {
   /// A quad with a larger angle is a chevron. Thesis 3.6.1, 4.1.11 (200 degrees there, for want of stability).
   double chevron_angle = std::numbers::pi;
-  /// The cases of the thesis (3.6, appendix): rounds of them, and which take part. Measured on 33 planar
-  /// meshes of Gmsh (87 thousand quads): alone they bring the irregular nodes from 14.4 % to 10.1 %, cavities and changes by
-  /// score (cleanup/clean_up.hpp) alone to 2.4 %. Beside those, transitions and large angles raise the mean scaled Jacobian of
-  /// the thesis' models from 0.812 to 0.819, and diamonds the smallest one of geo/ from 0.38 to 0.47 where a passage
+  /// The cases of the thesis (3.6, appendix): rounds of them, and which take part. Measured on 33 planar meshes of Gmsh
+  /// (87 thousand quads): alone they bring the irregular nodes from 14.4 % to 10.1 %, cavities and changes by score
+  /// (cleanup/clean_up.hpp) alone to 2.4 %. Beside those, transitions and large angles raise the mean scaled Jacobian
+  /// of the thesis' models from 0.812 to 0.819, and diamonds the smallest one of geo/ from 0.38 to 0.47 where a passage
   /// is narrow: on. Tables 1 to 3 of the appendix find nothing there any more: off.
   int pattern_rounds = 3;
   bool transition_cases = true, shape_cases = true, diamond_cases = true;
   bool connectivity_cases = false, boundary_cases = false;
-  /// A quad with both its edges at a node on the boundary and a larger angle there is triangularly shaped. Thesis 3.6.4.
+  /// A quad with both its edges at a node on the boundary and a larger angle there is triangularly shaped. Thesis
+  /// 3.6.4.
   double transition_angle = 0.75 * std::numbers::pi;
   /// A quad with a larger angle is combined with a neighbour. Thesis 3.6.5.
   double shape_angle = 8 * std::numbers::pi / 9;
@@ -70,8 +73,9 @@ struct ThesisSmoothing {
 };
 
 /// How nodes are moved. Measured on 33 planar meshes of Gmsh, shape_energy and thesis: scaled Jacobian min 0.35 and
-/// 0.25, mean 0.969 and 0.967, mean of the 1st percentiles 0.79 and 0.76, quads under 0.3 none and 64, irregular
-/// nodes 2.5 and 2.6 %, seconds of all stages 1.1 and 1.9. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly better.
+/// 0.25, mean 0.969 and 0.967, mean of the 1st percentiles 0.79 and 0.76, quads under 0.3 none and 64, irregular nodes
+/// 2.5 and 2.6 %, seconds of all stages 1.1 and 1.9. With MAXITER 50 and MOVETOLERANCE 0.001 the thesis' is hardly
+/// better.
 enum class SmoothingMethod {
   shape_energy,  ///< Newton steps on a shape energy, then on the worst corners
   thesis,        ///< constrained Laplacian, then steepest descent on the worst element. Thesis 2.2.6, 3.7
@@ -92,10 +96,10 @@ struct SmoothingOptions {
 /// Whether the work is to go on.
 enum class Progress { go_on, cancel };
 
-/// Gets the name of a stage that is at work and the share of all that is done, 0 to 1: one call at a time, but not always from the
-/// same thread. With `cancel` the work ends at the next look of each thread, in general within a stage, and `Cancelled` is
-/// thrown. An exception of the callback's own ends the work in the same way and comes out unchanged. In both cases
-/// nothing is left of the conversion; a Gmsh model has the mesh that it had.
+/// Gets the name of a stage that is at work and the share of all that is done, 0 to 1: one call at a time, but not
+/// always from the same thread. With `cancel` the work ends at the next look of each thread, in general within a stage,
+/// and `Cancelled` is thrown. An exception of the callback's own ends the work in the same way and comes out unchanged.
+/// In both cases nothing is left of the conversion; a Gmsh model has the mesh that it had.
 using ProgressCallback = std::function<Progress(std::string_view stage, double share)>;
 
 /// All options of one conversion.
@@ -103,16 +107,19 @@ struct Options {
   FrontOptions front;
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
-  /// Triangles of boundary layers and structured strips stay the quads that they are halves of; the front has the others.
+  /// Triangles of boundary layers and structured strips stay the quads that they are halves of; the front has the
+  /// others.
   bool layers = true;
-  /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries together
-  /// take no more triangles than this, or than six times its own where a region of up to twice as many has a quad with a scaled
-  /// Jacobian under 0.7; the best result counts. 0: never.
+  /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries
+  /// together take no more triangles than this, or than six times its own where a region of up to twice as many has a
+  /// quad with a scaled Jacobian under 0.7; the best result counts. 0: never.
   std::size_t retry_triangles = 2000;
-  /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the end; not if
-  /// it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0: never.
+  /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the
+  /// end; not if it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0:
+  /// never.
   std::size_t part_triangles = 120'000;
-  /// On a curved surface, edges whose triangles meet at a larger angle (radians, between their normals) are kept. 180 degrees: none.
+  /// On a curved surface, edges whose triangles meet at a larger angle (radians, between their normals) are kept. 180
+  /// degrees: none.
   double crease_angle = 2 * std::numbers::pi / 9;
   /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
   bool check_each_step = false;
@@ -120,7 +127,8 @@ struct Options {
   int threads = 0;
   /// Called now and then; may be empty.
   ProgressCallback progress;
-  /// Watches how the result comes about (observer.hpp); may be null. It has to live as long as the call that it watches.
+  /// Watches how the result comes about (observer.hpp); may be null. It has to live as long as the call that it
+  /// watches.
   Observer* observer = nullptr;
 };
 

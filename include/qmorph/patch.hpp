@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What goes into the engine and what comes out: arrays, no Gmsh, no half-edges.
 

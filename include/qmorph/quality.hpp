@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The quality figures: one definition for report, JSON and tests.
 ///
@@ -82,8 +83,9 @@ class QualityAccumulator {
   void add(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
            std::span<const std::array<Index, 4>> quads);
 
-  /// Adds what a surface was made into. On a curved surface a corner is turned over if it is against the normals of the input's
-  /// triangles near it, and of the whole element's, and the scaled Jacobian is the least of the corner sines in space.
+  /// Adds what a surface was made into. On a curved surface a corner is turned over if it is against the normals of the
+  /// input's triangles near it, and of the whole element's, and the scaled Jacobian is the least of the corner sines in
+  /// space.
   void add(const Patch& before, const QuadMesh& after);
 
   /// Adds the surfaces that another one has collected.

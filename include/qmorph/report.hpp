@@ -13,7 +13,8 @@ struct DirectedSize {
   double along = 1, across = 1;
 };
 
-/// Counts and times of one conversion, or of several (`add`). Times are in seconds of the clock, of all regions together.
+/// Counts and times of one conversion, or of several (`add`). Times are in seconds of the clock, of all regions
+/// together.
 struct ConversionReport {
   std::size_t regions = 0;             ///< sets of triangles joined through edges that are no constraints
   std::size_t odd_regions = 0;         ///< regions with an odd number of boundary sides: one triangle stays in each
@@ -21,8 +22,8 @@ struct ConversionReport {
   std::size_t layer_quads = 0;         ///< quads that boundary layers and structured strips were already
   std::size_t front_quads = 0;         ///< quads that the advancing front made
   std::size_t leftover_triangles = 0;  ///< triangles that the front left to triangle elimination
-  /// Improvements that ended before they were done, since they had cost as much as their triangles allow: the result is valid, but
-  /// could be better.
+  /// Improvements that ended before they were done, since they had cost as much as their triangles allow: the result is
+  /// valid, but could be better.
   std::size_t budgets_spent = 0;
   double front_seconds = 0;
   double elimination_seconds = 0;

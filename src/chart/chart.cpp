@@ -13,11 +13,11 @@ Eigen::Vector3d in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
 }  // namespace
 
-Chart::Chart(const Piece& piece)
+Chart::Chart(const Piece& piece, int rounds)
     : piece_(piece),
       barriers_(piece.barriers()),
       surface_(piece.points, piece.halves, barriers_),
-      flattening_(flatten(surface_, piece.points.size())),
+      flattening_(flatten(surface_, piece.points.size(), rounds)),
       half_at_(piece.points.size(), kNone) {
   for (Index t = 0; t < piece.halves.size(); ++t)
     for (Index v : piece.halves[t]) half_at_[v] = t;
@@ -84,7 +84,8 @@ Chart::Place Chart::nearest_of_all(const Vec2& p) const {
 
 space::OnTriangle Chart::closest(const Vec2& p, Index half) const {
   const auto& t = piece_.halves[half];
-  return space::closest_on_triangle(in_space(p), in_space(flat()[t[0]]), in_space(flat()[t[1]]), in_space(flat()[t[2]]));
+  return space::closest_on_triangle(in_space(p), in_space(flat()[t[0]]), in_space(flat()[t[1]]),
+                                    in_space(flat()[t[2]]));
 }
 
 Eigen::Vector3d Chart::to_space(const Place& place) const {

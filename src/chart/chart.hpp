@@ -9,7 +9,7 @@ namespace qmorph::chart {
 
 class Chart {
  public:
-  explicit Chart(const Piece& piece);
+  explicit Chart(const Piece& piece, int rounds = kAllRounds);
   Chart(const Chart&) = delete;
   Chart& operator=(const Chart&) = delete;
 

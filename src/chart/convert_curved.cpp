@@ -3,17 +3,20 @@
 
 #include <utility>
 
+#include "chart/attempts.hpp"
 #include "chart/collect.hpp"
-#include "chart/work_on_region.hpp"
 #include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "qmorph/error.hpp"
 #include "space/reference.hpp"
 
 namespace qmorph::chart {
 namespace {
 
-std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task) {
+std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task,
+                                    std::vector<bool>* stuck) {
+  std::vector<char> is_stuck(regions.size(), 0);
   std::vector<RegionWork> works(regions.size());
   std::size_t total = 0;
   for (const CurvedRegion& region : regions) total += region.region.triangles.size();
@@ -25,14 +28,23 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     Options own = options;
     own.progress = progress[r];
     const double allowed = part_of(allowance(total), regions[r].region.triangles.size(), total, regions.size());
-    works[r] = work_on_region(regions[r], own, allowed, task);
+    try {
+      works[r] = best_of_attempts(regions[r], own, allowed, task);
+    } catch (const SurfaceError&) {
+      if (!stuck) throw;
+      is_stuck[r] = 1;
+      if (wants_stages(own)) works[r].stages.resize(kStages - 1);
+    }
   });
   shared.finish();
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    if (is_stuck[r])
+      for (Index v : regions[r].region.node) (*stuck)[v] = true;
   return works;
 }
 
-SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regions,
-                        const Options& options, std::vector<RegionWork>& works) {
+SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
+                        std::vector<RegionWork>& works) {
   SurfaceRecord record;
   record.normal.setZero();
   for (RegionWork& work : works) {
@@ -49,9 +61,9 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 }
 
 /// `kept` has those quads of the patch that stay.
-SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions,
-                           const Options& options, Task task) {
-  std::vector<RegionWork> works = work_on_all(regions, options, task);
+SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
+                           Task task, std::vector<bool>* stuck) {
+  std::vector<RegionWork> works = work_on_all(regions, options, task, stuck);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -67,8 +79,8 @@ SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& r
 
 }  // namespace
 
-SurfaceWork convert_curved(const Patch& patch, const Options& options) {
-  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert);
+SurfaceWork convert_curved(const Patch& patch, const Options& options, std::vector<bool>* stuck) {
+  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert, stuck);
 }
 
 SurfaceWork improve_curved(const Patch& patch, const Options& options) {
@@ -76,7 +88,7 @@ SurfaceWork improve_curved(const Patch& patch, const Options& options) {
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(halves, regions, options, Task::improve);
+  return work_on_curved(halves, regions, options, Task::improve, nullptr);
 }
 
 }  // namespace qmorph::chart

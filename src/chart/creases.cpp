@@ -26,14 +26,14 @@ bool has_normal(const space::Background& surface, Index t) {
   return area > kLeastHeight * longest;
 }
 
-/// Where an edge turns by less, it may be one of several that make a bend together: a circle of six sides is a circle. In a
-/// bend, each edge turns by not much more than the surface does beyond it, on both sides.
+/// Where an edge turns by less, it may be one of several that make a bend together: a circle of six sides is a circle.
+/// In a bend, each edge turns by not much more than the surface does beyond it, on both sides.
 constexpr double kMostOfBend = 75 * std::numbers::pi / 180;
 constexpr double kLeastBeyond = 0.4;
 constexpr Index kMostOfFan = 24;
 
-/// By how much the surface turns on around `axis`, from the triangle of `side` to those at its corner across. Infinite where the
-/// surface ends there: nobody knows how it goes on.
+/// By how much the surface turns on around `axis`, from the triangle of `side` to those at its corner across. Infinite
+/// where the surface ends there: nobody knows how it goes on.
 double turn_beyond(const space::Background& surface, Index side, const Vector3d& axis) {
   const Index from = side / 3, corner = 3 * from + (side + 2) % 3;
   const Vector3d start = surface.normal(from) - surface.normal(from).dot(axis) * axis;
@@ -73,8 +73,8 @@ std::vector<Index> faces_between(const space::Background& surface, const std::ve
   return face;
 }
 
-/// A face between creases that is one triangle, or two beside some that have no normal, is a fault of the triangulation, not one of
-/// the shape: what is sharp around it says nothing.
+/// A face between creases that is one triangle, or two beside some that have no normal, is a fault of the
+/// triangulation, not one of the shape: what is sharp around it says nothing.
 void drop_around_crumbs(const space::Background& surface, const std::vector<char>& counts,
                         std::vector<bool>& is_crease) {
   constexpr std::size_t kFew = 2;

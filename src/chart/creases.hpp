@@ -6,8 +6,8 @@
 
 namespace qmorph::chart {
 
-/// Edges along which two triangles of a surface meet at more than `angle` (radians, between their normals), lower node first, sorted.
-/// Triangles without height have no say.
+/// Edges along which two triangles of a surface meet at more than `angle` (radians, between their normals), lower node
+/// first, sorted. Triangles without height have no say.
 std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle);
 
 }  // namespace qmorph::chart

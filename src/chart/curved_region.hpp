@@ -18,7 +18,8 @@ struct CurvedRegion {
   std::vector<Index> tips;  ///< vertices inside where the surface is as sharp as a crease: the tip of a cone
 
   CurvedRegion(const Patch& patch, Region cut, double crease_angle);
-  /// Its elements, before anything is done to them. Triangles of the patch from row `first_half` on are halves of quads, two and two.
+  /// Its elements, before anything is done to them. Triangles of the patch from row `first_half` on are halves of
+  /// quads, two and two.
   SurfaceMesh start() const;
   std::size_t first_half = std::size_t(-1);
 

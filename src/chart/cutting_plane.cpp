@@ -14,14 +14,14 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kShifts[] = {0, -0.08, 0.08, -0.16, 0.16};  ///< of the share
-/// Each end of the curve costs this share of the extent, and so much more the flatter it meets the outline: a wedge is no
-/// place for quads.
+/// Each end of the curve costs this share of the extent, and so much more the flatter it meets the outline: a wedge is
+/// no place for quads.
 constexpr double kEndCost = 0.02, kFlatCost = 0.5;
 constexpr double kSquare = 0.9;  ///< a sine from which on an end is no wedge
 /// A plane that has less than this of the wanted share behind it does not cut.
 constexpr double kLeastShare = 0.3;
 /// Costs are estimated from so many faces.
-constexpr std::size_t kSamples = 4096;
+constexpr std::size_t kSamples = 1500;
 
 struct Plane3 {
   Vector3d normal = Vector3d::UnitX();
@@ -61,8 +61,7 @@ class Chooser {
       if (!piece.open[side]) continue;
       const Face& face = piece.faces[side / 4];
       const std::array<Vector3d, 3> t{piece.points[face[0]], piece.points[face[1]], piece.points[face[2]]};
-      outline_.push_back(
-          {piece.points[face[side % 4]], piece.points[face[next_corner(face, side % 4)]], normal_of(t)});
+      outline_.push_back({piece.points[face[side % 4]], piece.points[face[next_corner(face, side % 4)]], normal_of(t)});
     }
   }
 

@@ -2,6 +2,7 @@
 #include "chart/divide.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -10,7 +11,6 @@
 #include "chart/local_numbers.hpp"
 #include "chart/opening.hpp"
 #include "chart/topology.hpp"
-#include "qmorph/error.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 constexpr double kTooLarge = 1.5;
 /// A piece of a part with less than this share of its faces goes to a neighbour.
 constexpr double kCrumb = 0.1;
-/// Quads that are squares in a chart are good quads in space up to this distortion. Parts with few faces may have more: cut again,
-/// they would be all interface.
+/// Quads that are squares in a chart are good quads in space up to this distortion. Parts with few faces may have more:
+/// cut again, they would be all interface.
 constexpr double kMostDistortion = 1.2, kMostOfFew = 2;
 constexpr double kMany = 200, kFew = 30;
 
@@ -56,6 +56,21 @@ class Dividing {
     return flattening.flipped == 0 && flattening.distortion <= most_distortion(part.piece.faces.size());
   }
 
+  /// A disc that is curved so much in sum that nobody has to try: half a sphere lacks 2 pi. Tips may be cut open.
+  static bool is_round(const Piece& piece) {
+    constexpr double kMostInSum = 5, kTip = 0.5;
+    constexpr std::size_t kLarge = 500;
+    if (piece.faces.size() < kLarge) return false;
+    const std::vector<double> defects = angle_defects(piece);
+    std::vector<char> is_outer(piece.points.size(), 0);
+    for (Index side = 0; side < piece.open.size(); ++side)
+      if (piece.open[side]) is_outer[piece.faces[side / 4][side % 4]] = 1;
+    double sum = 0;
+    for (Index v = 0; v < defects.size(); ++v)
+      if (!is_outer[v] && std::abs(defects[v]) < kTip) sum += defects[v];
+    return std::abs(sum) > kMostInSum;
+  }
+
   void accept(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
     division_.parts.push_back(faces);
     division_.laid_out.push_back(std::move(part));
@@ -67,25 +82,18 @@ class Dividing {
 
   /// Accepts a part, or cuts it and returns what it falls into.
   std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
-    const Piece piece(mesh_, opposite_, division_.is_cut, faces);
-    std::unique_ptr<LaidOut> part;
-    if (double(faces.size()) <= kTooLarge * most_ && is_planar_topology(piece)) {
-      part = lay_out(faces);
-      const bool good = is_good(*part);
-      if (!good) part = open(faces, piece);
-      if (part && is_good(*part)) return finish(faces, std::move(part));
+    Piece piece(mesh_, opposite_, division_.is_cut, faces);
+    if (double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece)) {
+      auto smaller = cut(faces, piece);
+      if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
+      return smaller;
     }
-    auto smaller = cut(faces, piece);
-    if (!smaller.empty()) return smaller;
-    part = lay_out(faces);
-    if (!is_planar_topology(piece) || part->chart.flattening().flipped > 0) {
-      const Eigen::Vector3d& place = mesh_.points[mesh_.faces[faces[0]][0]];
-      throw SurfaceError(
-          "its triangles around " + describe(place) + " cannot be laid flat; mesh the surface anew or repair it",
-          {.kind = ErrorKind::bad_element, .place = place});
-    }
-    accept(faces, std::move(part));
-    return {};
+    auto part = std::make_unique<LaidOut>(std::move(piece));
+    if (is_good(*part)) return finish(faces, std::move(part));
+    if (auto opened = open(faces, part->piece)) return finish(faces, std::move(opened));
+    auto smaller = cut(faces, part->piece);
+    if (smaller.empty()) accept(faces, std::move(part));
+    return smaller;
   }
 
   void set_cut(Index side, bool cut) { division_.is_cut[side] = division_.is_cut[opposite_[side]] = cut; }
@@ -104,11 +112,14 @@ class Dividing {
   /// Cuts along the paths that open the part, until it has a good chart. Null, and nothing is cut, if it never has.
   std::unique_ptr<LaidOut> open(const std::vector<Index>& faces, const Piece& piece) {
     std::vector<Index> sides;
-    for (const std::vector<Index>& path : opening_paths(piece)) {
-      for (Index side : sides_along(piece, path)) {
+    const std::vector<std::vector<Index>> paths = opening_paths(piece);
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      for (Index side : sides_along(piece, paths[k])) {
         set_cut(side, true);
         sides.push_back(side);
       }
+      if (!std::has_single_bit(k + 1) && k + 1 < paths.size())
+        continue;  // a surface with many holes is not laid flat for each
       auto part = lay_out(faces);
       if (is_good(*part)) return part;
     }
@@ -125,7 +136,8 @@ class Dividing {
       const Face& face = piece.faces[side / 4];
       if (side % 4 >= degree(face) || piece.open[side]) continue;
       const Index a = face[side % 4], b = face[next_corner(face, side % 4)];
-      if (std::binary_search(edges.begin(), edges.end(), std::pair(a, b))) sides.push_back(4 * piece.row[side / 4] + side % 4);
+      if (std::binary_search(edges.begin(), edges.end(), std::pair(a, b)))
+        sides.push_back(4 * piece.row[side / 4] + side % 4);
     }
     return sides;
   }

@@ -15,6 +15,7 @@ struct LaidOut {
   LaidOut(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_cut,
           const std::vector<Index>& faces)
       : piece(mesh, opposite, is_cut, faces), chart(piece) {}
+  explicit LaidOut(Piece&& its_piece, int rounds = kAllRounds) : piece(std::move(its_piece)), chart(piece, rounds) {}
 };
 
 struct Division {
@@ -23,9 +24,10 @@ struct Division {
   std::vector<std::unique_ptr<LaidOut>> laid_out;  ///< of each part
 };
 
-/// Parts with a good chart and not many more than `most` faces. What a good chart has is not cut: discs that are curved little, annuli
-/// that lie flat. A tube is opened from one end to the other, a cone from its tip to its rim; what is curved more, and what has
-/// handles or no boundary, is cut in two along the shortest plane curve that does it, again and again.
+/// Parts with a good chart and not many more than `most` faces. What a good chart has is not cut: discs that are curved
+/// little, annuli that lie flat. A tube is opened from one end to the other, a cone from its tip to its rim; what is
+/// curved more, and what has handles or no boundary, is cut in two along the shortest plane curve that does it, again
+/// and again. What cannot be cut any more may have a chart that is turned over here and there.
 /// \param is_cut sides that are cut already: creases
 Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
                 std::size_t most);

@@ -7,7 +7,8 @@
 namespace qmorph::chart {
 namespace {
 
-/// A tree of parts, in which each has a lower one that is its neighbour, and a side of the longest edge between the two.
+/// A tree of parts, in which each has a lower one that is its neighbour, and a side of the longest edge between the
+/// two.
 struct Tree {
   std::vector<Index> order, parent, longest;
 };

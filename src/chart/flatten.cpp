@@ -17,9 +17,10 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// A triangle is taken to be at least this times as high as long: without height it has no direction.
 constexpr double kLeastHeight = 1e-3;
-constexpr int kMostRounds = 30;
 /// Rounds end when one lowers the energy by less than this share of it.
 constexpr double kLeastGain = 0.02;
+/// With less energy than this a triangle, a thousandth of lengths, the surface unrolls, and no round is worth its time.
+constexpr double kFlatEnough = 1e-6;
 /// Points go so many times as far as a round takes them: fewer rounds do.
 constexpr double kOvershoot = 1.7;
 /// A triangle with a smaller sine is as bad as one that is turned over.
@@ -50,9 +51,11 @@ Shape shape_of(const space::Background& surface, Index t) {
 /// How a triangle got to its place: z -> a z + b conj(z).
 struct Map {
   Complex a, b;
-  double larger() const { return std::abs(a) + std::abs(b); }
-  double smaller() const { return std::abs(a) - std::abs(b); }  ///< negative if it is turned over
-  Complex rotation() const { return std::abs(a) > 0 ? a / std::abs(a) : Complex(1); }
+  double larger() const { return size(a) + size(b); }
+  double smaller() const { return size(a) - size(b); }  ///< negative if it is turned over
+  Complex rotation() const { return std::norm(a) > 0 ? a / size(a) : Complex(1); }
+  /// std::abs() takes care of numbers that are too large or too small to be squared, which takes most of the time.
+  static double size(const Complex& z) { return std::sqrt(std::norm(z)); }
 };
 
 Map map_of(const Shape& shape, const Complex& p, const Complex& q, const Complex& r) {
@@ -80,14 +83,16 @@ class Flattening2D {
       : surface_(surface), points_(points, Vec2::Zero()) {
     for (Index t = 0; t < surface.triangles(); ++t) shapes_.push_back(shape_of(surface, t));
     scale();
+    unfold();
     factorise();
   }
 
-  std::vector<Vec2> run() {
-    unfold();
+  /// All points at one place if numbers are too small for more.
+  std::vector<Vec2> run(int rounds) {
+    if (solver_.info() != Eigen::Success) return std::move(points_);
     solve();
     double energy = turn();
-    for (int round = 1; round < kMostRounds; ++round) {
+    for (int round = energy > kFlatEnough * double(shapes_.size()) ? 1 : rounds; round < rounds; ++round) {
       const std::vector<Vec2> before = points_;
       solve();
       for (std::size_t v = 0; v < points_.size(); ++v) points_[v] = before[v] + kOvershoot * (points_[v] - before[v]);
@@ -95,7 +100,7 @@ class Flattening2D {
       if (!(now < (1 - kLeastGain) * energy)) break;
       energy = now;
     }
-    solve();
+    if (energy > kFlatEnough * double(shapes_.size())) solve();
     for (Vec2& p : points_) p *= unit_;
     return std::move(points_);
   }
@@ -117,7 +122,7 @@ class Flattening2D {
 
   void factorise() {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(9 * shapes_.size() + 1);
+    entries.reserve(9 * shapes_.size() + first_.size());
     pulls_.reserve(3 * shapes_.size());
     for (Index t = 0; t < shapes_.size(); ++t)
       for (int i = 0; i < 3; ++i) {
@@ -129,7 +134,8 @@ class Flattening2D {
         const Complex pull = weight * shapes_[t].side(i);
         pulls_.emplace_back(pull.real(), pull.imag());
       }
-    entries.emplace_back(0, 0, 1);  // holds one point
+    for (Index t : first_)
+      entries.emplace_back(int(surface_.corners(t)[0]), int(surface_.corners(t)[0]), 1);  // holds one point
     Matrix matrix(Eigen::Index(points_.size()), Eigen::Index(points_.size()));
     matrix.setFromTriplets(entries.begin(), entries.end());
     solver_.compute(matrix);
@@ -153,8 +159,16 @@ class Flattening2D {
   /// Rotations that lay each triangle beside the one that it is reached from, the middle first.
   void unfold() {
     rotations_.assign(shapes_.size(), Complex(0));
-    std::vector<Index> order{middle()};
-    rotations_[order[0]] = 1;
+    unfold_from(middle());
+    for (Index t = 0; t < shapes_.size(); ++t)
+      if (rotations_[t] == Complex(0)) unfold_from(t);
+  }
+
+  void unfold_from(Index first) {
+    if (first >= shapes_.size()) return;
+    first_.push_back(first);
+    std::vector<Index> order{first};
+    rotations_[first] = 1;
     for (std::size_t k = 0; k < order.size(); ++k) {
       const Index t = order[k];
       for (Index side = 3 * t; side < 3 * t + 3; ++side) {
@@ -209,7 +223,7 @@ class Flattening2D {
     for (Index t = 0; t < shapes_.size(); ++t) {
       const Map map = map_of(surface_, shapes_[t], t, points_);
       rotations_[t] = map.rotation();
-      const double off = std::abs(map.a) - 1;
+      const double off = Map::size(map.a) - 1;
       energy += shapes_[t].area() * (off * off + std::norm(map.b));
     }
     return energy;
@@ -220,7 +234,8 @@ class Flattening2D {
   double unit_ = 1;
   std::vector<Vec2> points_;
   std::vector<Complex> rotations_;
-  std::vector<Vec2> pulls_;  ///< by side: what it adds to the right hand side before it is turned
+  std::vector<Index> first_;  ///< a triangle of each part that hangs together
+  std::vector<Vec2> pulls_;   ///< by side: what it adds to the right hand side before it is turned
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 
@@ -247,9 +262,9 @@ void measure_distortion(const space::Background& surface, Flattening& flattening
   flattening.scaling = high(factors);
 }
 
-Flattening flatten(const space::Background& surface, std::size_t points) {
+Flattening flatten(const space::Background& surface, std::size_t points, int rounds) {
   Flattening flattening;
-  flattening.points = Flattening2D(surface, points).run();
+  flattening.points = Flattening2D(surface, points).run(rounds);
   measure_distortion(surface, flattening);
   if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, flattening);
   return flattening;

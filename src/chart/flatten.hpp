@@ -19,10 +19,14 @@ struct Flattening {
   std::size_t flipped = 0;  ///< triangles that are turned over, or have no area
 };
 
-/// As rigid as possible [Liu08]: unfolded from triangle to triangle first, then rotations and points in turn. The surface is one piece
-/// and has a boundary; it may have holes. A cone, a tube that is cut open, a plate are flattened exactly; for what cannot be the
-/// result says how far off it is. Cost: one sparse factorisation, some solves: near linear.
-Flattening flatten(const space::Background& surface, std::size_t points);
+/// Rounds: until they gain nothing, or as many as do for a window that is thrown away soon.
+inline constexpr int kAllRounds = 30, kFewRounds = 4;
+
+/// As rigid as possible [Liu08]: unfolded from triangle to triangle first, then rotations and points in turn. Each
+/// piece of the surface has a boundary; it may have holes. A cone, a tube that is cut open, a plate are flattened
+/// exactly; for what cannot be the result says how far off it is. Cost: one sparse factorisation, some solves: near
+/// linear.
+Flattening flatten(const space::Background& surface, std::size_t points, int rounds = kAllRounds);
 
 /// The distortion of points that were found elsewhere.
 void measure_distortion(const space::Background& surface, Flattening& flattening);

@@ -30,7 +30,8 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
     for (Index f : sides[s]) division.part[local[f]] = s;
   std::vector<Index> nodes;
   for (Index h = 0; h < flat.half_edge_slots(); ++h)
-    if (is_among(interface, piece.vertex[flat.origin(h)], piece.vertex[flat.target(h)])) nodes.push_back(flat.origin(h));
+    if (is_among(interface, piece.vertex[flat.origin(h)], piece.vertex[flat.target(h)]))
+      nodes.push_back(flat.origin(h));
   sort_unique(nodes);
   straighten_interfaces(flat, division, nodes);
   const Lifted lifted = lift(flat, piece, chart, background);
@@ -40,19 +41,17 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
   }
 }
 
-void straighten_once(SurfaceMesh& mesh, const std::vector<Edge>& creases, const std::vector<Edge>& interface,
-                     const space::Background& background) {
+/// `waiting`: nodes of interfaces that have to be looked at.
+void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, const std::vector<Edge>& interface,
+                       std::vector<char> waiting, const space::Background& background) {
   const std::vector<Index> opposite = opposite_sides(mesh);
   const std::vector<bool> is_crease = sides_on(mesh, creases);
   std::vector<bool> is_cut = sides_on(mesh, interface);
   for (std::size_t side = 0; side < is_cut.size(); ++side) is_cut[side] = is_cut[side] || is_crease[side];
-  std::vector<char> waiting(mesh.points.size(), 0);
-  for (const auto& [a, b] : interface) waiting[a] = waiting[b] = 1;
   while (true) {
     const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting);
     if (windows.empty()) return;
-    for (const Window& window : windows)
-      straighten_window(mesh, opposite, is_cut, interface, window, background);
+    for (const Window& window : windows) straighten_window(mesh, opposite, is_cut, interface, window, background);
   }
 }
 
@@ -89,9 +88,21 @@ std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edg
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
                 const space::Background& background) {
   if (interface.empty()) return;
+  constexpr int kSteps = 4;  // along the interface from a node that another has become
   const std::vector<double> size = mean_edges(mesh);
-  straighten_once(mesh, creases, interface, background);
-  if (thin_out(mesh, size, creases, interface, background)) straighten_once(mesh, creases, interface, background);
+  std::vector<char> waiting(mesh.points.size(), 0);
+  for (const auto& [a, b] : interface) waiting[a] = waiting[b] = 1;
+  straighten_around(mesh, creases, interface, waiting, background);
+  const std::vector<Index> changed = thin_out(mesh, size, creases, interface, background);
+  if (changed.empty()) return;
+  waiting.assign(mesh.points.size(), 0);
+  for (Index v : changed) waiting[v] = 1;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::vector<char> before = waiting;
+    for (const auto& [a, b] : interface)
+      if (before[a] || before[b]) waiting[a] = waiting[b] = 1;
+  }
+  straighten_around(mesh, creases, interface, std::move(waiting), background);
 }
 
 }  // namespace qmorph::chart

@@ -14,13 +14,14 @@ bool is_among(const std::vector<Edge>& edges, Index a, Index b);
 std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edges);
 std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sides);
 
-/// Moves nodes of interfaces, and those around, so that the interfaces are smooth. Where that has made their edges shorter than
-/// others, some of their nodes go. Creases stay; faces may get other numbers.
+/// Moves nodes of interfaces, and those around, so that the interfaces are smooth. Where that has made their edges
+/// shorter than others, some of their nodes go. Creases stay; faces may get other numbers.
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
                 const space::Background& background);
 
-/// Splits edges between parts in two so that one part at most has an odd number of sides, interfaces rather than creases. New edges
-/// are added to `interface` or `creases`, `division` and `opposite` are brought up to date. Marks the parts that changed.
+/// Splits edges between parts in two so that one part at most has an odd number of sides, interfaces rather than
+/// creases. New edges are added to `interface` or `creases`, `division` and `opposite` are brought up to date. Marks
+/// the parts that changed.
 std::vector<char> make_parts_even(SurfaceMesh& mesh, std::vector<Index>& opposite, Division& division,
                                   std::vector<Edge>& creases, std::vector<Edge>& interface,
                                   const space::Background& background);

@@ -113,7 +113,8 @@ std::vector<Index> path_from_narrow_tip(const Piece& piece, const std::vector<Ve
       angles[t[i]] += std::abs(signed_angle(flat[t[(i + 1) % 3]] - flat[t[i]], flat[t[(i + 2) % 3]] - flat[t[i]]));
   for (const std::vector<Index>& loop : loops_of(piece))
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Index tip = loop[k], after = loop[(k + 1) % loop.size()], before = loop[(k + loop.size() - 1) % loop.size()];
+      const Index tip = loop[k], after = loop[(k + 1) % loop.size()],
+                  before = loop[(k + loop.size() - 1) % loop.size()];
       if (piece.node[before] != piece.node[after] || angles[tip] > kNarrow) continue;
       // To the point of the boundary that lies straight ahead.
       const Vec2 ahead = rotated(flat[after] - flat[tip], 0.5 * angles[tip]).normalized();

@@ -4,12 +4,13 @@
 
 namespace qmorph::chart {
 
-/// Paths along edges of a piece that join its loops, and the tips of its cones, to one another: cut along all of them, it is a
-/// disc. The longest loops come first. Each path is a list of points.
+/// Paths along edges of a piece that join its loops, and the tips of its cones, to one another: cut along all of them,
+/// it is a disc. The longest loops come first. Each path is a list of points.
 std::vector<std::vector<Index>> opening_paths(const Piece& piece);
 
-/// A boundary point may have one node before and after it: the end of a cut, or of a line inside. Where the corner there is so
-/// narrow that one quad would fill it, that quad would have the node twice. A path that halves the first such corner; empty if there is none.
+/// A boundary point may have one node before and after it: the end of a cut, or of a line inside. Where the corner
+/// there is so narrow that one quad would fill it, that quad would have the node twice. A path that halves the first
+/// such corner; empty if there is none.
 std::vector<Index> path_from_narrow_tip(const Piece& piece, const std::vector<Vec2>& flat);
 
 }  // namespace qmorph::chart

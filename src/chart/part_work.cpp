@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/part_work.hpp"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
-
-#include "engine/allowance.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/improve_region.hpp"
-#include "engine/pipeline.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -20,41 +14,10 @@ Plane plane_of(const Chart& chart) {
   return plane;
 }
 
-std::size_t count_bad(const kernel::Mesh& mesh) {
-  std::size_t bad = 0;
-  for (Index f = 0; f < mesh.face_slots(); ++f) bad += mesh.is_live_face(f) && !mesh.is_valid_face(f);
-  return bad;
-}
-
-/// Where the piece ends on both sides of a line, one node has two points there. An element may have got both, or two edges have become one.
-bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {
-  const auto node = [&](Index v) { return v < piece.points.size() ? piece.node[v] : kNone - 1 - v; };
-  std::vector<std::tuple<Index, Index, bool>> edges;  // nodes, whether it is boundary
-  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {
-    if (!mesh.is_live_half_edge(h)) continue;
-    const Index a = node(mesh.origin(h)), b = node(mesh.target(h)), low = std::min(a, b), high = std::max(a, b);
-    if (low == high) return true;
-    edges.emplace_back(low, high, mesh.is_boundary_edge(h));
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 1; k < edges.size(); ++k) {
-    const auto& [a, b, outer] = edges[k - 1];
-    const auto& [c, d, other_outer] = edges[k];
-    if (a == c && b == d && !(outer && other_outer)) return true;
-  }
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_quad(f) || !mesh.is_live_face(f)) continue;
-    const Index h = mesh.half_edge(f);
-    const Index a = node(mesh.origin(h)), b = node(mesh.target(h)), c = node(mesh.target(mesh.next(h)));
-    if (a == c || b == node(mesh.origin(mesh.prev(h)))) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
-                          Record& record) {
+kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
+                          ConversionReport& report, Record& record) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(chart);
   const Region region = piece.region(chart.flat());
@@ -63,26 +26,6 @@ kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double al
   const kernel::Mesh input = mesh;
   const ImproveStart start = start_improving(region, std::move(mesh), plane, options);
   return improve_region(start, input, plane, options, allowed, report, record);
-}
-
-std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
-                                     const space::Background& background) {
-  const auto& [piece, chart] = window;
-  Reworked work{&piece, piece.mesh(chart.flat()), {}};
-  const std::size_t bad = count_bad(work.mesh);
-  std::vector<Index> nodes(piece.points.size());
-  std::iota(nodes.begin(), nodes.end(), 0);
-  Options own = options;
-  own.observer = nullptr;
-  own.progress = {};
-  ConversionReport report;
-  Record record;
-  Pipeline pipeline(own, report, record, work.mesh, allowance(work.mesh.face_slots()));
-  pipeline.clean_near(work.mesh, nodes);
-  pipeline.polish(work.mesh);
-  if (count_bad(work.mesh) > bad || folds_onto_itself(work.mesh, piece)) return {};
-  work.lifted = lift(work.mesh, piece, chart, background);
-  return work;
 }
 
 }  // namespace qmorph::chart

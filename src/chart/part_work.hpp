@@ -2,10 +2,7 @@
 #pragma once
 /// The stages of the engine on parts of a region, each in its chart.
 
-#include <optional>
-
 #include "chart/divide.hpp"
-#include "chart/rework.hpp"
 #include "engine/record.hpp"
 #include "qmorph/report.hpp"
 
@@ -14,12 +11,9 @@ namespace qmorph::chart {
 /// Triangles that are converted, or triangles and quads that are improved.
 enum class Task { convert, improve };
 
-/// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was found
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
-                          Record& record);
-
-/// A window in which irregular nodes have been cancelled and the rest smoothed. Nothing if it was better before.
-std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
-                                     const space::Background& background);
+/// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was
+/// found
+kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
+                          ConversionReport& report, Record& record);
 
 }  // namespace qmorph::chart

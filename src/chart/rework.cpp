@@ -2,6 +2,7 @@
 #include "chart/rework.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace qmorph::chart {
 namespace {
@@ -54,6 +55,30 @@ SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces
   }
   for (const Reworked& work : pieces) put(work, result);
   return result;
+}
+
+bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {
+  const auto node = [&](Index v) { return v < piece.points.size() ? piece.node[v] : kNone - 1 - v; };
+  std::vector<std::tuple<Index, Index, bool>> edges;  // nodes, whether it is boundary
+  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {
+    if (!mesh.is_live_half_edge(h)) continue;
+    const Index a = node(mesh.origin(h)), b = node(mesh.target(h)), low = std::min(a, b), high = std::max(a, b);
+    if (low == high) return true;
+    edges.emplace_back(low, high, mesh.is_boundary_edge(h));
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t k = 1; k < edges.size(); ++k) {
+    const auto& [a, b, outer] = edges[k - 1];
+    const auto& [c, d, other_outer] = edges[k];
+    if (a == c && b == d && !(outer && other_outer)) return true;
+  }
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_quad(f) || !mesh.is_live_face(f)) continue;
+    const Index h = mesh.half_edge(f);
+    const Index a = node(mesh.origin(h)), b = node(mesh.target(h)), c = node(mesh.target(mesh.next(h)));
+    if (a == c || b == node(mesh.origin(mesh.prev(h)))) return true;
+  }
+  return false;
 }
 
 }  // namespace qmorph::chart

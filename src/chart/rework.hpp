@@ -11,8 +11,12 @@ struct Reworked {
   Lifted lifted;
 };
 
-/// The mesh with pieces, none of which has a face of another, replaced by what they have become. Vertices keep their numbers; some
-/// are used by no face any more.
+/// The mesh with pieces, none of which has a face of another, replaced by what they have become. Vertices keep their
+/// numbers; some are used by no face any more.
 SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces);
+
+/// Where the piece ends on both sides of a line, one node has two points there. An element may have got both, or two
+/// edges have become one.
+bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece);
 
 }  // namespace qmorph::chart

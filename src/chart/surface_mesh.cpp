@@ -58,9 +58,7 @@ Piece::Piece(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const 
     return other == kNone || local[other / 4] == kNone || (!is_cut.empty() && is_cut[side]) ? kNone : other;
   };
   const auto next = [&](Index side) { return side - side % 4 + next_corner(mesh.faces[side / 4], side % 4); };
-  const auto previous = [&](Index side) {
-    return side % 4 == 0 ? side + degree(mesh.faces[side / 4]) - 1 : side - 1;
-  };
+  const auto previous = [&](Index side) { return side % 4 == 0 ? side + degree(mesh.faces[side / 4]) - 1 : side - 1; };
   faces.assign(rows.size(), {kNone, kNone, kNone, kNone});
   std::vector<Index> corner(4 * rows.size(), kNone);
   const auto give = [&](Index side, Index number) { corner[4 * local[side / 4] + side % 4] = number; };
@@ -112,7 +110,8 @@ Piece::Piece(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const 
 std::vector<space::Background::Edge> Piece::barriers() const {
   std::vector<space::Background::Edge> edges;
   for (Index side = 0; side < open.size(); ++side)
-    if (open[side]) edges.push_back({faces[side / 4][side % 4], faces[side / 4][next_corner(faces[side / 4], side % 4)]});
+    if (open[side])
+      edges.push_back({faces[side / 4][side % 4], faces[side / 4][next_corner(faces[side / 4], side % 4)]});
   return edges;
 }
 

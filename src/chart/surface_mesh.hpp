@@ -24,12 +24,12 @@ inline constexpr Index kFirstNew = kNone / 2;
 /// A manifold of faces whose nodes lie on the triangles of a background.
 struct SurfaceMesh {
   std::vector<Eigen::Vector3d> points;
-  std::vector<Index> on;      ///< triangle of the background, of each point
-  std::vector<char> fixed;    ///< by point; those of the boundary need not be marked
-  std::vector<Index> node;    ///< by point: those on both sides of a line have the same
+  std::vector<Index> on;    ///< triangle of the background, of each point
+  std::vector<char> fixed;  ///< by point; those of the boundary need not be marked
+  std::vector<Index> node;  ///< by point: those on both sides of a line have the same
   std::vector<Face> faces;
-  std::vector<bool> open;     ///< sides that are boundary
-  std::vector<Index> near;    ///< triangle of the background on or beside each face
+  std::vector<bool> open;   ///< sides that are boundary
+  std::vector<Index> near;  ///< triangle of the background on or beside each face
 
   Index add_point(const Eigen::Vector3d& p, Index triangle) {
     points.push_back(p);
@@ -51,9 +51,10 @@ struct Piece {
   std::vector<char> fixed;
   std::vector<Face> faces;
   std::vector<Index> near;
-  std::vector<Index> row;   ///< of the mesh's faces
-  std::vector<bool> open;   ///< sides where the piece ends
-  std::vector<std::pair<Index, Index>> seams;  ///< open sides that are not the mesh's boundary: its vertices, lower first; sorted
+  std::vector<Index> row;  ///< of the mesh's faces
+  std::vector<bool> open;  ///< sides where the piece ends
+  std::vector<std::pair<Index, Index>>
+      seams;  ///< open sides that are not the mesh's boundary: its vertices, lower first; sorted
   std::size_t boundary_sides = 0;
   /// Faces as triangles: of face f those from first_half[f] on, one or two.
   std::vector<std::array<Index, 3>> halves;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "chart/rework.hpp"
 #include "chart/windows.hpp"
@@ -102,14 +103,16 @@ std::vector<double> mean_edges(const SurfaceMesh& mesh) {
   return sum;
 }
 
-bool thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-              std::vector<Edge>& interface, const space::Background& background) {
-  if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return false;
+std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
+                            std::vector<Edge>& interface, const space::Background& background) {
+  if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
   const std::vector<Merge> merges = choose(mesh, size, creases, interface);
   std::vector<Index> goes_into(mesh.points.size(), kNone);
   std::vector<char> waiting(mesh.points.size(), 0);
   for (const Merge& merge : merges) goes_into[merge.from] = merge.into, waiting[merge.from] = 1;
-  bool changed = false;
+  std::vector<Index> stays(mesh.points.size());  // where interfaces run now
+  std::iota(stays.begin(), stays.end(), 0);
+  std::vector<Index> changed;
   while (true) {
     const std::vector<Index> opposite = opposite_sides(mesh);
     const std::vector<Window> windows = take_windows(mesh, opposite, sides_on(mesh, creases), kWindow, waiting);
@@ -125,22 +128,25 @@ bool thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vec
         goes_into[from] = kNone;
         const auto at = std::find(piece.vertex.begin(), piece.vertex.end(), into);
         if (at == piece.vertex.end() || !merge_in(work.mesh, v, Index(at - piece.vertex.begin()))) continue;
-        for (auto& [a, b] : interface) {
-          if (a == from) a = into;
-          if (b == from) b = into;
-          if (a > b) std::swap(a, b);
-        }
+        stays[from] = into;
         merged = true;
+        changed.push_back(into);
       }
       if (!merged) continue;
-      changed = true;
       work.lifted = lift(work.mesh, piece, chart, background);
       results.push_back(std::move(work));
     }
     mesh = replace(mesh, results);
   }
+  const auto stays_at = [&](Index v) {
+    while (stays[v] != v) v = stays[v];
+    return v;
+  };
+  for (Edge& edge : interface) edge = std::minmax(stays_at(edge.first), stays_at(edge.second));
   std::erase_if(interface, [](const Edge& edge) { return edge.first == edge.second; });
   sort_unique(interface);
+  for (Index& v : changed) v = stays_at(v);
+  sort_unique(changed);
   return changed;
 }
 

@@ -30,8 +30,7 @@ class Turning {
         for (Index i = 0; i < 3; ++i) corners.push_back(3 * t + i);
       for (Index corner : corners) raise(corner);
       std::vector<Index> near;
-      for (Index corner : corners)
-        surface_.for_fan(corner, kNone, [&](Index around) { near.push_back(around / 3); });
+      for (Index corner : corners) surface_.for_fan(corner, kNone, [&](Index around) { near.push_back(around / 3); });
       sort_unique(near);
       bad.clear();
       for (Index t : near)

@@ -41,6 +41,7 @@ class Taking {
   /// Faces that are near a waiting node and in no window yet.
   void find_strip() {
     in_strip_.assign(mesh_.faces.size(), 0);
+    in_window_.assign(mesh_.faces.size(), 0);
     std::vector<Index> ring, next;
     for (Index f = 0; f < mesh_.faces.size(); ++f)
       if (has_waiting(f)) in_strip_[f] = 1, ring.push_back(f);
@@ -54,15 +55,24 @@ class Taking {
 
   std::unique_ptr<Window> window_around(Index first) {
     std::vector<Index> faces{first};
+    std::vector<int> steps{0};
     in_strip_[first] = 0;
     for (std::size_t k = 0; k < faces.size(); ++k)
-      for (Index side = 4 * faces[k]; side < 4 * faces[k] + 4 && faces.size() < size_.most; ++side)
-        if (const Index g = across(side); g != kNone && in_strip_[g]) in_strip_[g] = 0, faces.push_back(g);
+      for (Index side = 4 * faces[k]; side < 4 * faces[k] + 4 && faces.size() < size_.most; ++side) {
+        const Index g = across(side);
+        if (g == kNone) continue;
+        if (in_strip_[g]) in_strip_[g] = 0, faces.push_back(g), steps.push_back(steps[k] + 1);
+        if (!size_.apart || !in_window_[g] || steps[k] >= size_.margin) continue;
+        give_back(faces, 0);  // there will be room for all of it when the other window is done
+        return nullptr;
+      }
     while (true) {
       auto laid_out = lay_out(faces);
       if (laid_out || faces.size() / 2 < kSmallest) {
         if (!laid_out) give_back(faces, 1);
         settle(first, faces, laid_out.get());
+        if (laid_out)
+          for (Index f : faces) in_window_[f] = 1;
         if (!laid_out) return nullptr;
         return std::make_unique<Window>(Window{std::move(faces), std::move(laid_out)});
       }
@@ -76,9 +86,9 @@ class Taking {
   }
 
   std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) const {
-    const Piece piece(mesh_, opposite_, is_wall_, faces);
+    Piece piece(mesh_, opposite_, is_wall_, faces);
     if (loops_of(piece).size() != 1 || euler_characteristic(piece) != 1) return nullptr;
-    auto laid_out = std::make_unique<LaidOut>(mesh_, opposite_, is_wall_, faces);
+    auto laid_out = std::make_unique<LaidOut>(std::move(piece), kFewRounds);
     const Flattening& flattening = laid_out->chart.flattening();
     if (flattening.flipped > 0 || flattening.distortion > kMostDistortion) return nullptr;
     return laid_out;
@@ -114,7 +124,7 @@ class Taking {
   const std::vector<bool>& is_wall_;
   const WindowSize& size_;
   std::vector<char>& waiting_;
-  std::vector<char> in_strip_;
+  std::vector<char> in_strip_, in_window_;
 };
 
 }  // namespace

@@ -11,13 +11,15 @@ struct Window {
 };
 
 struct WindowSize {
-  int reach;         ///< faces from the nodes, in steps across sides
-  int margin;        ///< nodes that are so many steps inside are done
-  std::size_t most;  ///< faces of a window
+  int reach;           ///< faces from the nodes, in steps across sides
+  int margin;          ///< nodes that are so many steps inside are done
+  std::size_t most;    ///< faces of a window
+  bool apart = false;  ///< a window waits until no other one is nearer to its middle than the margin
 };
 
-/// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window has them well
-/// inside, or no window can be laid flat around them. Called until it returns nothing, every node has had its window.
+/// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window
+/// has them well inside, or no window can be laid flat around them. Called until it returns nothing, every node has had
+/// its window.
 /// \param is_wall sides that no window crosses
 std::vector<Window> take_windows(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
                                  const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting);

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/work_on_region.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "chart/interfaces.hpp"
+#include "chart/irregular_nodes.hpp"
+#include "chart/pair_up.hpp"
+#include "chart/refine.hpp"
 #include "chart/topology.hpp"
+#include "chart/window_work.hpp"
 #include "chart/windows.hpp"
 #include "engine/allowance.hpp"
+#include "geometry/describe.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "qmorph/error.hpp"
 #include "space/improve.hpp"
 
 namespace qmorph::chart {
@@ -18,29 +25,111 @@ namespace {
 
 /// Faces of a chart: larger ones cost more than they are worth.
 constexpr std::size_t kMostOfChart = 60'000;
-constexpr WindowSize kCleaningWindow{8, 5, 800};
+constexpr WindowSize kCleaningWindow{8, 5, 800, true};
+constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
+using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options,
+                                         const space::Background& background);
+
+/// Where a try has failed, by triangle of the region.
+struct Distrust {
+  std::vector<char> triangles;
+  bool interfaces = false;  ///< straight ones were too much
+  bool all = false;
+  bool nodes = false;  ///< there are too few
+};
+
+/// One try.
 class Worker {
  public:
-  Worker(const CurvedRegion& region, const Options& options, double allowed, Task task)
-      : region_(region), options_(options), allowed_(allowed), task_(task), mesh_(region.start()) {
+  Worker(const CurvedRegion& region, const Options& options, double allowed, Task task, const Distrust& distrust)
+      : region_(region), options_(options), allowed_(allowed), task_(task), distrust_(distrust) {
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
 
-  RegionWork run() {
+  /// False if it failed.
+  bool run() {
+    start();
     if (wants_stages(options_)) work_.stages.assign(kStages - 1, mesh_);
     divide_region();
     work_on_parts();
     clean_interfaces();
-    work_.mesh = space::improve(std::move(mesh_), creases_, region_, options_.smoothing);
+    const SurfaceMesh before = mesh_;
+    if (task_ == Task::convert && cancel_irregular_nodes()) {
+      if (improve() && doubtful() == 0) return true;
+      mesh_ = before;  // what is valid in a window may have no valid place in space
+    }
+    return improve();
+  }
+
+  RegionWork result() {
+    work_.mesh = std::move(mesh_);
     return std::move(work_);
+  }
+
+  std::size_t doubtful() const { return faults_.doubtful.size(); }
+
+  std::optional<SurfaceError> find_fault() const {
+    const auto error_at = [&](Index f, const char* what, const char* why) {
+      const Face& face = mesh_.faces[f];
+      const Index v = *std::min_element(face.begin(), face.begin() + degree(face));  // of the input, if one is
+      const Eigen::Vector3d& place = mesh_.points[v];
+      ErrorDetails details{.kind = ErrorKind::no_valid_mesh, .place = place};
+      if (v < region_.points.size()) details.subject = node_row(region_.region.node[v]);
+      return SurfaceError(what + describe(place) + why + "; refine the triangles or the boundary there", details);
+    };
+    if (!faults_.turned.empty()) return error_at(faults_.turned[0], "no valid element was found at ", "");
+    std::size_t triangles = 0;
+    for (Index f = 0; f < mesh_.faces.size(); ++f)
+      if (degree(mesh_.faces[f]) == 3 && ++triangles > region_.region.boundary_sides % 2)
+        return error_at(f, "the triangle at ", " could not be removed");
+    return {};
+  }
+
+  /// Adds what is under the faces that failed. False if that was distrusted already.
+  bool learn(Distrust& distrust) const {
+    bool is_new = false;
+    distrust.triangles.resize(region_.region.triangles.size(), 0);
+    const auto add = [&](Index triangle) {
+      if (triangle != kNone && !distrust.triangles[triangle]) distrust.triangles[triangle] = 1, is_new = true;
+    };
+    for (const auto* faces : {&faults_.turned, &faults_.doubtful})
+      for (Index f : *faces) {
+        add(mesh_.near[f]);
+        for (Index i = 0; i < degree(mesh_.faces[f]); ++i) add(mesh_.on[mesh_.faces[f][i]]);
+      }
+    return is_new;
   }
 
  private:
   const space::Background& background() const { return *region_.background; }
 
+  bool improve() {
+    faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
+    return !find_fault();
+  }
+
+  void start() {
+    mesh_ = region_.start();
+    if (distrust_.nodes) mesh_ = refined(mesh_, region_.creases);
+  }
+
   void divide_region() {
+    // Between quads that are there already an interface is as good as it can be.
+    const bool straightens = task_ == Task::convert && !distrust_.interfaces;
+    divide_region(straightens);
+    if (straightens && std::any_of(division_.laid_out.begin(), division_.laid_out.end(), is_turned_over)) {
+      start();
+      divide_region(false);
+    }
+    has_no_chart_.assign(division_.parts.size(), 0);
+    for (Index p = 0; p < division_.parts.size(); ++p) has_no_chart_[p] = is_distrusted(p);
+  }
+
+  static bool is_turned_over(const std::unique_ptr<LaidOut>& part) { return part->chart.flattening().flipped > 0; }
+
+  void divide_region(bool straightens) {
     opposite_ = opposite_sides(mesh_);
     const std::vector<bool> is_crease = sides_on(mesh_, region_.creases);
     creases_ = edges_on(mesh_, is_crease);
@@ -49,12 +138,17 @@ class Worker {
     for (std::size_t side = 0; side < is_interface.size(); ++side)
       if (is_crease[side]) is_interface[side] = false;
     interface_ = edges_on(mesh_, is_interface);
-    // Between quads that are there already an interface is as good as it can be.
-    if (!interface_.empty() && task_ == Task::convert) straighten_interfaces();
+    if (!interface_.empty() && straightens) straighten_interfaces();
     const std::vector<char> changed = make_parts_even(mesh_, opposite_, division_, creases_, interface_, background());
     for (Index p = 0; p < division_.parts.size(); ++p)
       if (changed[p] || !division_.laid_out[p])
         division_.laid_out[p] = std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, division_.parts[p]);
+  }
+
+  bool is_distrusted(Index part) const {
+    if (distrust_.all || is_turned_over(division_.laid_out[part])) return true;
+    return !distrust_.triangles.empty() && std::any_of(division_.parts[part].begin(), division_.parts[part].end(),
+                                                       [&](Index f) { return distrust_.triangles[mesh_.near[f]]; });
   }
 
   void straighten_interfaces() {
@@ -85,17 +179,40 @@ class Worker {
       own.progress = progress[p];
       const double most = part_of(allowed_, division_.parts[p].size(), mesh_.faces.size(), parts);
       const LaidOut& part = *division_.laid_out[p];
-      results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p]), {}};
-      results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
+      try {
+        if (has_no_chart_[p]) return;
+        results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p]), {}};
+        results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
+      } catch (const SurfaceError&) {
+        has_no_chart_[p] = true;
+      }
     });
     shared.finish();
+    for (std::size_t p = 0; p < parts; ++p) {
+      if (!has_no_chart_[p]) continue;
+      reports[p] = {};
+      records[p] = {};
+      if (wants_stages(options_))
+        records[p].stages.front() = division_.laid_out[p]->piece.mesh(division_.laid_out[p]->chart.flat());
+    }
     for (std::size_t p = 0; p < parts; ++p) {
       work_.report.add(reports[p]);
       for (std::size_t i = 0; i < kStages; ++i) work_.seconds[i] += records[p].seconds[i];
       for (auto& front : records[p].fronts) work_.fronts.push_back(std::move(front));
     }
     for (std::size_t stage = 1; stage < work_.stages.size(); ++stage) work_.stages[stage] = at_stage(stage, records);
+    std::erase_if(results, [](const Reworked& result) { return !result.piece; });
     mesh_ = replace(mesh_, results);
+    if (results.size() < parts) pair_up_the_rest();
+  }
+
+  void pair_up_the_rest() {
+    needs_cleaning_.assign(mesh_.points.size(), 0);
+    for (Index p = 0; p < has_no_chart_.size(); ++p)
+      if (has_no_chart_[p])
+        for (Index v : division_.laid_out[p]->piece.vertex) needs_cleaning_[v] = 1;
+    pair_up(mesh_, creases_, background(), options_.smoothing);
+    needs_cleaning_.resize(mesh_.points.size(), 1);
   }
 
   /// The region as its parts were after a stage, or after the last one before it that was run.
@@ -113,22 +230,44 @@ class Worker {
 
   /// Interfaces were boundaries: irregular nodes beside them cancel now, and rows run straight on.
   void clean_interfaces() {
-    if (interface_.empty()) return;
-    std::vector<char> waiting(mesh_.points.size(), 0);
+    if (interface_.empty() && needs_cleaning_.empty()) return;
+    std::vector<char> waiting = std::move(needs_cleaning_);
+    waiting.resize(mesh_.points.size(), 0);
     for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
+    work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
+  }
+
+  /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they
+  /// cost more than they are worth.
+  bool cancel_irregular_nodes() {
+    constexpr int kPasses = 3;  // those that are gone make room for others to cancel
+    constexpr std::size_t kLarge = 20'000;
+    bool changed = false;
+    for (int pass = 0; pass < kPasses && mesh_.faces.size() < kLarge; ++pass) {
+      std::vector<char> irregular = irregular_nodes(mesh_, creases_);
+      const auto count = std::count(irregular.begin(), irregular.end(), 1);
+      if (double(count) < kFewIrregular * double(mesh_.faces.size())) break;
+      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window)) break;
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// True if a window has changed.
+  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+    bool changed = false;
     while (true) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
-      const std::vector<Window> windows =
-          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), kCleaningWindow, waiting);
-      if (windows.empty()) return;
-      std::vector<std::optional<Reworked>> cleaned(windows.size());
-      parallel::for_each_index(windows.size(), [&](std::size_t w) {
-        cleaned[w] = clean_window(*windows[w].laid_out, options_, background());
-      });
+      const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
+      if (windows.empty()) return changed;
+      std::vector<std::optional<Reworked>> reworked(windows.size());
+      parallel::for_each_index(
+          windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, background()); });
       std::vector<Reworked> results;
-      for (auto& window : cleaned)
+      for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));
+      changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
   }
@@ -137,17 +276,67 @@ class Worker {
   Options options_;
   const double allowed_;
   const Task task_;
+  const Distrust& distrust_;
   RegionWork work_;
   SurfaceMesh mesh_;
   std::vector<Index> opposite_;
   std::vector<Edge> creases_, interface_;
   Division division_;
+  std::vector<char> has_no_chart_;    ///< by part
+  std::vector<char> needs_cleaning_;  ///< by node: of parts without a chart
+  space::Faults faults_;
 };
+
+/// With other constants of the front.
+std::vector<Options> variants_of(const Options& asked) {
+  std::vector<Options> variants;
+  for (const double corner : {1.0, 0.9, 1.1})
+    for (const double side : {1.0, 0.5, 1.5}) {
+      variants.push_back(asked);
+      variants.back().front.corner_angle *= corner;
+      variants.back().front.side_edge_angle *= side;
+    }
+  variants.erase(variants.begin());  // as asked
+  return variants;
+}
 
 }  // namespace
 
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
-  return Worker(region, options, allowed, task).run();
+  constexpr int kTries = 4;
+  constexpr std::size_t kSmall = 5000;  // triangles, so that a doubtful element is worth another try
+  const Distrust nothing;
+  Distrust distrust;
+  std::optional<SurfaceError> first;
+  std::optional<RegionWork> best;
+  std::size_t fewest = 0;
+  for (int i = 1; i <= kTries; ++i) {
+    distrust.all = distrust.all || i == kTries;
+    Worker worker(region, options, allowed, task, distrust);
+    if (worker.run()) {
+      const std::size_t doubtful = worker.doubtful();
+      const bool is_new = worker.learn(distrust);
+      if (!best || doubtful < fewest) best = worker.result(), fewest = doubtful;
+      if (fewest == 0 || !is_new || region.region.triangles.size() > kSmall) return std::move(*best);
+    } else {
+      if (!first) first = worker.find_fault();
+      if (distrust.all) break;
+      if (!worker.learn(distrust)) distrust.all = true;
+    }
+    distrust.interfaces = true;
+  }
+  if (best) return std::move(*best);
+  // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have
+  // one.
+  if (task == Task::convert && region.region.triangles.size() <= options.retry_triangles)
+    for (const Options& variant : variants_of(options))
+      if (Worker worker(region, variant, allowed, task, nothing); worker.run()) return worker.result();
+  constexpr std::size_t kFew = 50;
+  Distrust nodes;
+  nodes.nodes = true;
+  if (task == Task::convert && region.region.triangles.size() <= kFew)
+    if (Worker worker(region, options, allowed, task, nodes); worker.run()) return worker.result();
+  throw *first;
 }
 
 }  // namespace qmorph::chart

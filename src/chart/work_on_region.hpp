@@ -19,8 +19,8 @@ struct RegionWork {
   std::vector<std::unique_ptr<FrontObserver>> fronts;
 };
 
-/// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths and mends in
-/// space, for about as much work as is allowed (engine/allowance.hpp). \throws SurfaceError
+/// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
+/// and mends in space, for about as much work as is allowed (engine/allowance.hpp). \throws SurfaceError
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
 
 }  // namespace qmorph::chart

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/cavity.hpp"
 
 namespace qmorph::cleanup {
@@ -90,8 +91,8 @@ void Cavity::for_new_sides(const Visit& visit) const {
   }
 }
 
-/// Finds outline and inner nodes, from those before the last faces were added. False if the quads are no disc or an inner node
-/// is not free.
+/// Finds outline and inner nodes, from those before the last faces were added. False if the quads are no disc or an
+/// inner node is not free.
 bool Cavity::trace() {
   std::swap(outline_, old_outline_);
   outline_.clear();

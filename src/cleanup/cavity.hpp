@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A disc of quads that is to be replaced, grown from one irregular node.
 
@@ -16,8 +17,8 @@ class Cavity {
   bool start(Index v);
   /// All faces of the mesh. False as above.
   bool start_with_all();
-  /// Adds the quads around irregular nodes of the outline or, if there are none, around all its nodes; then those without which
-  /// the outline would be concave. False if that is no such disc, or has more than `most` quads.
+  /// Adds the quads around irregular nodes of the outline or, if there are none, around all its nodes; then those
+  /// without which the outline would be concave. False if that is no such disc, or has more than `most` quads.
   bool grow(std::size_t most);
 
   const std::vector<Index>& faces() const { return faces_; }

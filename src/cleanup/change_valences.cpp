@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/change_valences.hpp"
 
 #include <algorithm>
@@ -83,8 +84,8 @@ std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothin
   return change_valences_near(mesh, smoothing, nodes, budget);
 }
 
-std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                                 const std::vector<Index>& nodes, const kernel::Budget& budget) {
+std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes,
+                                 const kernel::Budget& budget) {
   return ChangingValences(mesh, smoothing, budget).run(nodes);
 }
 

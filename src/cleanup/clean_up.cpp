@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/clean_up.hpp"
 
 #include "cleanup/change_valences.hpp"
@@ -6,8 +7,8 @@
 
 namespace qmorph::cleanup {
 
-// Cavities first: they keep the size of the elements better. Local changes mend what no cavity holds, at boundaries above
-// all, and leave fewer irregular nodes to cancel.
+// Cavities first: they keep the size of the elements better. Local changes mend what no cavity holds, at boundaries
+// above all, and leave fewer irregular nodes to cancel.
 
 std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
   std::size_t changes = replace_cavities(mesh, smoothing, budget);

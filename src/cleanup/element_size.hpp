@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The edge lengths that a mesh had when cleanup began, so that many small changes do not drift away from them.
 

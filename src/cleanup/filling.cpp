@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/filling.hpp"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ class Filler {
  public:
   Filler(Mesh& mesh, std::vector<Index>& nodes) : mesh_(mesh), nodes_(nodes) {}
 
-  /// The face of h, whose sides from h on are a, b, a and b edges long, becomes a grid with the points of a Coons patch.
+  /// The face of h, whose sides from h on are a, b, a and b edges long, becomes a grid with the points of a Coons
+  /// patch.
   bool grid(Index h, int a, int b) {
     const std::vector<Vec2> bottom = points_along(mesh_, h, a);
     const std::vector<Vec2> right = points_along(mesh_, ahead(mesh_, h, a), b);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/filling_choice.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace qmorph::cleanup {
 namespace {
 
-/// A filling that makes the elements coarser or finer than this is none.
-constexpr double kFewest = 0.75, kMost = 1.7;
 /// Three and five corners are looked for among so many places of the outline.
 constexpr std::size_t kLikelyCorners = 9;
 /// Four corners are looked for everywhere on an outline that is no longer than this.
@@ -18,8 +17,8 @@ constexpr int kShortOutline = 100;
 
 constexpr int kForbidden = 1'000'000;
 
-/// Score of the new nodes: one is irregular unless there are four corners. All costs are whole numbers: their sums have no
-/// rounding, in whatever order.
+/// Score of the new nodes: one is irregular unless there are four corners. All costs are whole numbers: their sums have
+/// no rounding, in whatever order.
 int cost_inside(int corners) { return corners == 4 ? 0 : 1; }
 
 /// What a place of an outline costs as a side, and as a corner over that.
@@ -61,8 +60,12 @@ struct Places {
 
 class Chooser {
  public:
-  Chooser(const Places& places, double most_cost, double quads_wanted)
-      : places_(places), n_(int(places.corner_cost.size())), most_cost_(most_cost), quads_wanted_(quads_wanted) {}
+  Chooser(const Places& places, double most_cost, double quads_wanted, const FillingSize& size)
+      : places_(places),
+        n_(int(places.corner_cost.size())),
+        most_cost_(most_cost),
+        quads_wanted_(quads_wanted),
+        size_(size) {}
 
   std::vector<FillingChoice> run() {
     find_likely_corners();
@@ -105,8 +108,8 @@ class Chooser {
 
   double cost_of_sides(int corners) const { return places_.side_cost + cost_inside(corners); }
 
-  /// Offers every choice of `left` more corners from likely_[from] on that does not cost too much; `cost` is that of the corners
-  /// picked so far and the sides.
+  /// Offers every choice of `left` more corners from likely_[from] on that does not cost too much; `cost` is that of
+  /// the corners picked so far and the sides.
   void pick(std::size_t from, int left, double cost) {
     if (left == 0) return offer(picked_);
     for (std::size_t i = from; i + left <= likely_.size(); ++i) {
@@ -127,7 +130,7 @@ class Chooser {
     const auto filling = filling_between(corners, n_);
     if (!filling) return;
     const double ratio = quads_of(*filling, n_) / quads_wanted_;
-    if (ratio < kFewest || ratio > kMost) return;
+    if (ratio < size_.fewest || ratio > size_.most) return;
     choice.filling = *filling;
     found_.push_back(choice);
   }
@@ -135,6 +138,7 @@ class Chooser {
   const Places& places_;
   int n_;
   double most_cost_, quads_wanted_;
+  FillingSize size_;
   std::vector<int> likely_;       ///< places for three and five corners, ascending
   std::vector<double> cheapest_;  ///< [k]: what k of them cost at least
   std::vector<int> picked_;
@@ -165,8 +169,8 @@ bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity
 }
 
 std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
-                                           double most_cost, double quads_wanted) {
-  return Chooser(Places(mesh, score, cavity), most_cost, quads_wanted).run();
+                                           double most_cost, double quads_wanted, const FillingSize& size) {
+  return Chooser(Places(mesh, score, cavity), most_cost, quads_wanted, size).run();
 }
 
 }  // namespace qmorph::cleanup

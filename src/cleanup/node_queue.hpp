@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Nodes that wait to be looked at, first come first served, each at most once at a time.
 

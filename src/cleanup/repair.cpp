@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/repair.hpp"
 
 #include <algorithm>
@@ -71,9 +72,7 @@ class Repair {
   }
 
   /// An element that is not valid is mended at any cost.
-  bool may_try(Index f) const {
-    return !budget_.is_spent() || (mesh_.is_live_face(f) && !mesh_.is_valid_face(f));
-  }
+  bool may_try(Index f) const { return !budget_.is_spent() || (mesh_.is_live_face(f) && !mesh_.is_valid_face(f)); }
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Bad elements that moving nodes cannot mend: their connectivity is changed.
 

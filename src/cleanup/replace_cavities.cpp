@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/replace_cavities.hpp"
 
 #include <algorithm>
@@ -12,9 +13,6 @@
 namespace qmorph::cleanup {
 namespace {
 
-constexpr std::size_t kMostQuads = 80;
-constexpr int kMostGrowth = 6;
-constexpr int kMostTries = 3;  ///< fillings of one cavity
 constexpr int kRings = 1;
 
 constexpr double kFloor = 0.4;
@@ -22,12 +20,12 @@ constexpr double kFloor = 0.4;
 /// To try a filling of a large cavity is dear, and only those have a chance whose corners are where the outline turns.
 constexpr std::size_t kLargeCavity = 4000;
 constexpr double kMostMisfit = 0.02;  ///< a corner of 65 degrees has as much
-bool has_chance(const Cavity& cavity, const FillingChoice& choice, int tries) {
-  return tries <= kMostTries && (cavity.faces().size() <= kLargeCavity || (tries == 1 && choice.misfit < kMostMisfit));
+bool has_chance(const Cavity& cavity, const FillingChoice& choice, int tries, int most_tries) {
+  return tries <= most_tries && (cavity.faces().size() <= kLargeCavity || (tries == 1 && choice.misfit < kMostMisfit));
 }
 
-/// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower before), and
-/// the mean hardly.
+/// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower
+/// before), and the mean hardly.
 bool is_good_enough(const Worth& before, const Worth& after) {
   constexpr double kMeanLoss = 0.02;
   return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean - kMeanLoss;
@@ -41,9 +39,10 @@ bool is_better_shape(const Worth& before, const Worth& after) {
 
 class Replacing {
  public:
-  Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
-      : mesh_(mesh), score_(mesh), size_(mesh), cavity_(mesh), relaxing_(smoothing), budget_(budget) {
-    relaxing_.iterations = 4;
+  Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
+            const CavityLimits& limits = {})
+      : mesh_(mesh), score_(mesh), size_(mesh), cavity_(mesh), relaxing_(smoothing), budget_(budget), limits_(limits) {
+    relaxing_.iterations = limits.iterations;
     relaxing_.untangling_sweeps = 8;  // a filling that needs more does not fit
   }
 
@@ -92,10 +91,10 @@ class Replacing {
   template <class Accept>
   bool improve(Index v, const Accept& accept, double gain) {
     if (mesh_.valence(v) > kMostValence || !cavity_.start(v)) return false;
-    for (int step = 0; step < kMostGrowth && !budget_.is_spent(); ++step) {
+    for (int step = 0; step < limits_.most_growth && !budget_.is_spent(); ++step) {
       mesh_.add_work(cavity_.faces().size());
       if (replace(accept, gain)) return true;
-      if (!cavity_.grow(kMostQuads)) return false;
+      if (!cavity_.grow(limits_.most_quads)) return false;
     }
     return false;
   }
@@ -111,8 +110,8 @@ class Replacing {
     const double size = size_.mean(near);
     int tries = 0;
     for (const FillingChoice& choice :
-         choose_fillings(mesh_, score_, cavity_, cost - gain, size_.quads_wanted(cavity_.faces()))) {
-      if (!has_chance(cavity_, choice, ++tries)) return false;
+         choose_fillings(mesh_, score_, cavity_, cost - gain, size_.quads_wanted(cavity_.faces()), limits_.size)) {
+      if (!has_chance(cavity_, choice, ++tries, limits_.most_tries)) return false;
       const auto edit = [&](std::vector<Index>& nodes) {
         return fill(mesh_, cavity_.outline(), cavity_.faces(), choice.filling, nodes);
       };
@@ -132,6 +131,7 @@ class Replacing {
   Cavity cavity_;
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;
+  const CavityLimits limits_;
   NodeQueue queue_;
   std::vector<Index> nodes_;
   std::vector<Index> failed_;  ///< by node: how many changes there had been when raise() found nothing for it
@@ -150,8 +150,9 @@ std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothi
 }
 
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                                  const std::vector<Index>& nodes, const kernel::Budget& budget) {
-  Replacing replacing(mesh, smoothing, budget);
+                                  const std::vector<Index>& nodes, const kernel::Budget& budget,
+                                  const CavityLimits& limits) {
+  Replacing replacing(mesh, smoothing, budget, limits);
   replacing.run(nodes);
   return replacing.changes();
 }

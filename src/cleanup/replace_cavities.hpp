@@ -1,26 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Irregular nodes that cancel each other over a distance: a disc of quads around them is replaced as a whole.
 
 #include <vector>
 
+#include "cleanup/filling_choice.hpp"
 #include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
 namespace qmorph::cleanup {
 
-/// Grows a disc of quads from each irregular node and replaces it by a filling (filling.hpp) whose valences score better,
-/// in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so do
-/// boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
-std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                             const kernel::Budget& budget = {});
+/// How far a search for a filling goes.
+struct CavityLimits {
+  std::size_t most_quads = 80;
+  int most_growth = 6;
+  int most_tries = 3;  ///< fillings of one cavity
+  int iterations = 4;  ///< of the smoothing by which one is judged
+  FillingSize size;
+};
+
+/// Grows a disc of quads from each irregular node and replaces it by a filling (filling.hpp) whose valences score
+/// better, in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so
+/// do boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {});
 
 /// The same, but that it begins with these nodes alone, and never replaces the region as a whole.
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
-                                  const std::vector<Index>& nodes, const kernel::Budget& budget = {});
+                                  const std::vector<Index>& nodes, const kernel::Budget& budget = {},
+                                  const CavityLimits& limits = {});
 
-/// Cavities at quads of poor shape get fillings that score no worse and raise the worst corner; the worst quads come first where
-/// the budget does not last for all.
+/// Cavities at quads of poor shape get fillings that score no worse and raise the worst corner; the worst quads come
+/// first where the budget does not last for all.
 std::size_t replace_poor_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing,
                                   const kernel::Budget& budget = {});
 

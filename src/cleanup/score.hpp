@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What the connectivity of a mesh is worth: the sum over nodes of (valence - ideal)^2.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/straighten_bands.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ constexpr std::size_t kMostEdges = 300;
 /// A band whose elements are better than this on average is good.
 constexpr double kGoodMean = 0.85;
 
-/// Part of a band from one rung to another: its rails, both in the direction from the first rung to the last, and its faces.
+/// Part of a band from one rung to another: its rails, both in the direction from the first rung to the last, and its
+/// faces.
 struct Band {
   std::vector<Index> lower,
       upper;  ///< half-edges of the rails, the band on their left; `upper` runs backwards, last one first
@@ -105,8 +107,8 @@ class BandFinder {
     return true;
   }
 
-  /// Whether the piece, or the next one, ends at the first rung. A ring is left open there: its ends would share nodes or an
-  /// element, and a path from one to the other could take the wrong way.
+  /// Whether the piece, or the next one, ends at the first rung. A ring is left open there: its ends would share nodes
+  /// or an element, and a path from one to the other could take the wrong way.
   bool closes(const Band& band, const Piece& piece) const {
     Piece beyond;
     return piece.exit == band.first || (trace(piece.exit, beyond) && beyond.exit == band.first);

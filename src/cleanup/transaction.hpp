@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One change of connectivity, judged by what the mesh is worth after a guarded relaxation.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "elimination/certain.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 
 using kernel::Mesh;
 
-/// Nodes of the quad that joining the triangle left of h with the triangle h, k, l would make; `far` is the node across.
+/// Nodes of the quad that joining the triangle left of h with the triangle h, k, l would make; `far` is the node
+/// across.
 double joined_sine(const Mesh& mesh, Index h, Index far) {
   return topology::smallest_sine(mesh, {mesh.origin(h), far, mesh.target(h), mesh.target(mesh.next(h))});
 }
@@ -34,7 +36,8 @@ bool cut_behind(Mesh& mesh, Index h, Index exit) {
   return true;
 }
 
-/// Places of the four nodes inside that divide a quad a, r, b, t with a straight or reflex corner r into five convex ones:
+/// Places of the four nodes inside that divide a quad a, r, b, t with a straight or reflex corner r into five convex
+/// ones:
 ///
 ///            t              r' and t' on the line from r to the corner across, a' and b' left and right of it, inside
 ///          / | \           the triangles a r' t' and b r' t', and between r' and t' as seen along the line. The angles

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "elimination/eliminate.hpp"
 
 #include <algorithm>
@@ -48,8 +49,7 @@ void pair_triangles(Mesh& mesh) {
   });
   for (const Pair& pair : pairs) {
     const Index h = pair.half_edge;
-    if (!mesh.is_live_half_edge(h) || !mesh.is_triangle(mesh.face(h)) ||
-        !mesh.is_triangle(mesh.face(Mesh::twin(h))))
+    if (!mesh.is_live_half_edge(h) || !mesh.is_triangle(mesh.face(h)) || !mesh.is_triangle(mesh.face(Mesh::twin(h))))
       continue;
     mesh.begin();
     const Index f = mesh.face(mesh.join_faces(h));
@@ -137,8 +137,8 @@ enum class Cut { ear, around_node };
 void cut_triangle_at(Mesh& mesh, Index exit, Cut cut, std::vector<Index>& nodes) {
   // Corners: exit runs a -> b, after it b -> c, c -> d, d -> e, e -> a.
   const Index before = mesh.prev(exit), after = mesh.next(exit), across = mesh.next(after);
-  const Index a = mesh.origin(exit), b = mesh.origin(after), c = mesh.origin(across),
-              d = mesh.target(across), e = mesh.origin(before);
+  const Index a = mesh.origin(exit), b = mesh.origin(after), c = mesh.origin(across), d = mesh.target(across),
+              e = mesh.origin(before);
   if (cut == Cut::around_node) {
     Vec2 centre = Vec2::Zero();
     for (Index v : {a, b, c, d, e}) centre += mesh.point(v) / 5;
@@ -146,16 +146,13 @@ void cut_triangle_at(Mesh& mesh, Index exit, Cut cut, std::vector<Index>& nodes)
     const Index from_d = mesh.next(across);
     const Index diagonal = mesh.split_face(exit, from_d);  // a -> d, the part d, e, a on its left
     const Index o = mesh.split_edge(diagonal, centre);
-    const Index from_o = mesh.next(Mesh::twin(diagonal)) == exit ? Mesh::twin(diagonal)
-                                                               : mesh.find(o, a);
+    const Index from_o = mesh.next(Mesh::twin(diagonal)) == exit ? Mesh::twin(diagonal) : mesh.find(o, a);
     mesh.split_face(from_o, after);
     nodes.push_back(o);
     return;
   }
-  const double first = std::min(topology::smallest_sine(mesh, {e, a, b}),
-                                topology::smallest_sine(mesh, {b, c, d, e}));
-  const double second = std::min(topology::smallest_sine(mesh, {a, b, c}),
-                                 topology::smallest_sine(mesh, {c, d, e, a}));
+  const double first = std::min(topology::smallest_sine(mesh, {e, a, b}), topology::smallest_sine(mesh, {b, c, d, e}));
+  const double second = std::min(topology::smallest_sine(mesh, {a, b, c}), topology::smallest_sine(mesh, {c, d, e, a}));
   if (first > second)
     mesh.split_face(before, after);
   else
@@ -165,8 +162,7 @@ void cut_triangle_at(Mesh& mesh, Index exit, Cut cut, std::vector<Index>& nodes)
 /// Passes the triangle behind path[0] across the first `crossings` edges of the path; if these are all, it meets the
 /// triangle at the end. Nodes on the way are collected in `nodes`. False if two faces on the way share
 /// more than one edge.
-bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::size_t crossings, Cut cut,
-                std::vector<Index>& nodes) {
+bool pass_along(Mesh& mesh, const std::vector<Index>& path, std::size_t crossings, Cut cut, std::vector<Index>& nodes) {
   for (std::size_t i = 0; i < crossings; ++i) {
     const Index h = path[i], f = mesh.face(h), g = mesh.face(Mesh::twin(h));
     if (f == kNone || g == kNone || f == g || !mesh.is_triangle(f)) return false;
@@ -196,9 +192,8 @@ struct Effort {
   int sweeps;  ///< times the usual number
   int chains;
 };
-constexpr Effort kLight[] = {{Cut::ear, Room::none, 1, 6},
-                            {Cut::ear, Room::chain, 1, 4},
-                            {Cut::around_node, Room::none, 1, 4}};
+constexpr Effort kLight[] = {
+    {Cut::ear, Room::none, 1, 6}, {Cut::ear, Room::chain, 1, 4}, {Cut::around_node, Room::none, 1, 4}};
 
 /// The faces on a path, the one behind its last edge too.
 std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
@@ -208,8 +203,8 @@ std::vector<Index> faces_on(const Mesh& mesh, const std::vector<Index>& path) {
 }
 
 /// One triangle to one partner, or part of the way, in a transaction.
-bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& path,
-              std::size_t crossings, const Effort& effort) {
+bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& path, std::size_t crossings,
+              const Effort& effort) {
   smoothing.untangling_sweeps *= effort.sweeps;
   std::vector<Index> nodes;
   mesh.begin();
@@ -310,10 +305,9 @@ std::size_t eliminate_triangles(Mesh& mesh, const SmoothingOptions& smoothing, M
     if (triangles.size() < 2) return triangles.size();
     for (Index f : triangles) {
       if (!mesh.is_live_face(f) || mesh.degree(f) != 3) continue;
-      const bool passed = pass_at_once(mesh, thorough, budget, search, f, kLight) ||
-                          walk(mesh, thorough, budget, search, f) ||
-                          (means == Means::cutting && mesh.is_triangle(f) &&
-                           pair_for_certain(mesh, thorough, budget, search, f));
+      const bool passed =
+          pass_at_once(mesh, thorough, budget, search, f, kLight) || walk(mesh, thorough, budget, search, f) ||
+          (means == Means::cutting && mesh.is_triangle(f) && pair_for_certain(mesh, thorough, budget, search, f));
       progress = progress || passed;
     }
   }

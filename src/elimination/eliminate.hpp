@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Triangle elimination: what makes the parity of triangles (I5 in src/README.md) a guarantee.
 

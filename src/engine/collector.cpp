@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/collector.hpp"
+
+#include <algorithm>
 
 namespace qmorph {
 
@@ -13,7 +16,8 @@ Collector::Collector(const Patch& patch, const Plane& plane, const std::vector<V
 }
 
 void Collector::add(const Region& region, const kernel::Mesh& mesh) {
-  for (Index v = 0; v < region.node.size(); ++v)
+  const Index count = std::min(Index(region.node.size()), mesh.vertex_slots());  // nothing of a region that is left out
+  for (Index v = 0; v < count; ++v)
     if (mesh.is_live_vertex(v)) used_[region.node[v]] = true;
   parts_.emplace_back(&region, &mesh);
 }

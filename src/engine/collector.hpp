@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// From the regions of a patch back to one surface.
 
@@ -15,7 +16,8 @@ class Collector {
   Collector(const Patch& patch, const Plane& plane, const std::vector<Vec2>& plane_points);
 
   void add(const Region& region, const kernel::Mesh& mesh);
-  /// Kept quads of the patch first, then the regions' elements. Nodes that did not move keep their coordinates to the bit.
+  /// Kept quads of the patch first, then the regions' elements. Nodes that did not move keep their coordinates to the
+  /// bit.
   QuadMesh finish();
 
  private:

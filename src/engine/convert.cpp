@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "qmorph/convert.hpp"
 
 #include <algorithm>
@@ -7,19 +8,20 @@
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
+#include "engine/stretch.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
 
 namespace qmorph {
 namespace {
 
-/// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out of the
-/// result, and their nodes are marked in `stuck`; if that is null, or the surface is curved, they are an error.
+/// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
+/// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
 SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
                               std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
-  if (!plane) return chart::convert_curved(patch, options);
-  const Surface surface(patch, *plane);
+  if (!plane) return chart::convert_curved(patch, options, stuck);
+  const Surface surface(patch, options.layers ? unstretched(*plane, patch) : *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);
   const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
@@ -47,8 +49,8 @@ QuadMesh as_it_was(const Patch& patch) {
 }
 
 /// What the front has made of the rest, as a conversion of the patch.
-void add_layers(const Patch& patch, const layers::Layers& layers, const std::optional<Plane>& plane, const Options& options,
-                SurfaceWork& work) {
+void add_layers(const Patch& patch, const layers::Layers& layers, const std::optional<Plane>& plane,
+                const Options& options, SurfaceWork& work) {
   auto& [mesh, report] = work.conversion;
   report.layer_quads = layers.quads;
   report.regions = layers.regions;
@@ -67,8 +69,8 @@ void add_layers(const Patch& patch, const layers::Layers& layers, const std::opt
   std::for_each(stages.begin(), stages.end(), mend_sources);
 }
 
-/// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the layers
-/// around it are left to the front as well, and at last all of them.
+/// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
+/// layers around it are left to the front as well, and at last all of them.
 SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   constexpr int kTries = 2;
   require_sound(patch);

@@ -1,11 +1,9 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/convert_region.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 #include <utility>
 
-#include "engine/allowance.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/parts/convert_parts.hpp"
@@ -24,7 +22,8 @@ struct Attempt {
   std::optional<SurfaceError> fault{};
 };
 
-/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1 and 2.2.
+/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1
+/// and 2.2.
 double shape(const kernel::Mesh& mesh, Index f) {
   double least = 1;
   Index h = mesh.half_edge(f);
@@ -65,15 +64,13 @@ Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles) {
   return worth;
 }
 
-/// The options that the caller asked for, with other constants of the front. In this order the first few bring most of what all can
-/// bring, on a hundred random polygons and the models of the thesis.
+/// The options that the caller asked for, with other constants of the front.
 std::vector<Options> variants_of(const Options& asked) {
   std::vector<Options> variants;
-  for (double corner : {0.9, 1.1, 1.0})
-    for (double seam : {0.5, 1.0})
+  for (double corner : {1.0, 0.9, 1.1})
+    for (double side : {1.0, 0.5, 1.5})
       for (double transition : {1.0, 0.7})
-        for (double side : {1.0, 0.5, 1.5}) {
-          if (corner == 1 && seam == 1 && transition == 1 && side == 1) continue;  // as asked
+        for (double seam : {1.0, 0.5}) {
           Options options = asked;
           options.front.corner_angle *= corner;
           options.front.side_edge_angle *= side;
@@ -82,31 +79,16 @@ std::vector<Options> variants_of(const Options& asked) {
           options.front.seam_angle_many *= seam;
           variants.push_back(options);
         }
+  variants.erase(variants.begin());  // as asked
   return variants;
-}
-
-/// The same for meshes that are the same to the last bit, and hardly for any others.
-std::uint64_t fingerprint(const kernel::Mesh& mesh) {
-  std::uint64_t print = 0;
-  const auto add = [&](std::uint64_t value) { print = (print ^ value) * 0x9e3779b97f4a7c15, print ^= print >> 29; };
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f)) continue;
-    Index h = mesh.half_edge(f);
-    for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) add(mesh.origin(h));
-    add(f);
-  }
-  for (Index v = 0; v < mesh.vertex_slots(); ++v)
-    if (mesh.is_live_vertex(v))
-      for (const double x : mesh.point(v)) add(std::bit_cast<std::uint64_t>(x));
-  return print;
 }
 
 bool is_small(const Region& region, const Options& options) {
   return 2 * region.triangles.size() <= options.retry_triangles;
 }
 
-/// What an attempt costs before anything is improved: in a region of no size, and for each triangle by the front.
-constexpr std::size_t kWorkPerAttempt = 600, kWorkOfFront = 120;
+/// What an attempt costs in a region of no size.
+constexpr std::size_t kWorkPerAttempt = 200;
 
 class RegionConverter {
  public:
@@ -120,20 +102,16 @@ class RegionConverter {
     std::optional<SurfaceError> fault = find_needles(start_, plane_);
     if (!fault) {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
-      const std::size_t size = count_faces(start_, 3);  // fans may have been refined, and those triangles have to be paid for
-      allowed_ = std::max(allowed_, kRefined * allowance(size));
-      constexpr std::size_t kFewest = 3;  // with fewer a front has no choice
+      const std::size_t size = count_faces(start_, 3);  // fans may have been refined
+      constexpr std::size_t kFewest = 3;                // with fewer a front has no choice
       const bool may_try_again = size >= kFewest && size <= 2 * options_.retry_triangles;
-      const bool may_be_short = size <= kFew && size == region_.triangles.size();
-      const double most =
-          may_be_short ? std::clamp(kWorkPerTriangle * double(size), kFirst * allowed_, allowed_) : allowed_;
-      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, most, true);
+      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, allowed_, true);
       if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
       fault = first.fault;
       if (!may_try_again) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
-    Attempt paired = attempt(std::move(start_), options_, std::max(allowed_ - double(cost_), kLast * allowed_), false);
+    Attempt paired = attempt(std::move(start_), options_, allowed_ - double(cost_), false);
     if (paired.fault) throw *fault;
     return paired;
   }
@@ -142,19 +120,12 @@ class RegionConverter {
   std::size_t cost() const { return cost_; }
 
  private:
-  /// The parts of what is allowed that the first attempt takes at most in a region of few triangles, where it is better to try
-  /// something else then, and that the last one has in any case.
-  static constexpr double kFirst = 0.375, kLast = 0.25, kRefined = 0.5;
-  static constexpr std::size_t kFew = 1000;
-  /// What tries that are good in the end cost at most; the others cost up to ten times as much.
-  static constexpr double kWorkPerTriangle = 300;
-
   /// Makes the mesh that the front begins with.
   void start() {
     start_ = kernel::Mesh(region_.points, region_.triangles, region_.open);
     for (Index v : region_.fixed) start_.set_fixed(v);
     if (wants_stages(options_)) input_ = start_;
-    repair_input(start_, plane_);
+    repair_input(start_, region_.node, plane_);
     grade_fans(start_);
   }
 
@@ -162,33 +133,30 @@ class RegionConverter {
 
   /// `size`: triangles that the front begins with.
   Attempt best_of_variants(Attempt best, std::size_t size) {
-    // Under the lower bound it is the boundary that is poor, unless there was no time to mend what is, and no try changes that.
+    // Under the lower bound it is the boundary that is poor, and no try changes that.
     constexpr double kGood = 2.05, kHopeless = 0.1;
-    constexpr std::size_t kMostGrowth = 2, kMore = 20;  // a front that makes many more faces than that has gone astray
+    constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
     std::size_t triangles = size;
     // A poor quad is worth some tries in a region that is not so small, too.
     constexpr std::size_t kTries = 6;
     Worth worth = judge(best.mesh);
-    const bool is_hopeless = worth.least < kHopeless && best.report.budgets_spent == 0;
-    if (is_hopeless || (!is_small_ && !worth.is_poor())) return best;
+    if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
     const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
-    constexpr double kPart = 0.125, kUsual = 0.6, kShort = 0.25;
-    const double each = std::max(kWorkPerTriangle * double(size), kPart * allowed_);
-    constexpr int kMostInVain = 2;  // one after another, where time is short
-    int in_vain = 0;
+    // Where a boundary is all spikes an attempt may cost ten times as much as usual, and no try is better.
+    constexpr std::size_t kWorkPerTriangle = 2000;
+    const std::size_t first = cost_;  // of the attempt before all tries, which are about as dear
     for (const Options& options : variants_of(options_)) {
       triangles += size;
       if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
-      if (in_vain >= kMostInVain && double(cost_) > kShort * allowed_) break;
-      if (double(cost_) + kUsual * each > allowed_) {
+      if (cost_ > kWorkPerTriangle * most) break;
+      if (double(cost_ + first) > allowed_) {
         ++best.report.budgets_spent;
         break;
       }
-      Attempt other = attempt(start_, options, each, true, kMostGrowth * (count_faces(best.mesh, 4) + kMore));
+      Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true,
+                              kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = judge(other.mesh);
-      ++in_vain;
       if (other.fault || others.sum() <= worth.sum()) continue;
-      in_vain = 0;
       best = std::move(other);
       worth = others;
     }
@@ -198,13 +166,13 @@ class RegionConverter {
   Attempt attempt(kernel::Mesh mesh, const Options& options, double allowed, bool with_front,
                   std::size_t most_faces = std::size_t(-1)) {
     Attempt result{std::move(mesh)};
-    cost_ += kWorkPerAttempt + (with_front ? kWorkOfFront * count_faces(result.mesh, 3) : 0);
+    result.mesh.add_work(kWorkPerAttempt);
     Options final = options;
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(final, result.report, result.record, input_, allowed);
     if (with_front) pipeline.advance_front(result.mesh, plane_);
-    if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces || !is_new(result.mesh)) {
-      result.fault = SurfaceError("too many elements, or as before");
+    if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
+      result.fault = SurfaceError("too many elements");
       cost_ += result.mesh.work();
       return result;
     }
@@ -214,14 +182,6 @@ class RegionConverter {
     if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
     return result;
-  }
-
-  /// Whether the front has not left the same mesh before, which would become what it became then.
-  bool is_new(const kernel::Mesh& mesh) {
-    const std::uint64_t print = fingerprint(mesh);
-    if (std::find(fronts_.begin(), fronts_.end(), print) != fronts_.end()) return false;
-    fronts_.push_back(print);
-    return true;
   }
 
   /// Nothing if the region is not large, or has no valid result in parts.
@@ -255,16 +215,15 @@ class RegionConverter {
   const Plane& plane_;
   const Options& options_;
   const bool is_small_;  ///< so that a second try is allowed
-  double allowed_;
+  const double allowed_;
   std::size_t cost_ = 0;
-  std::vector<std::uint64_t> fronts_;  ///< fingerprints of what the front has left so far
   kernel::Mesh start_;  ///< what the front begins with
   kernel::Mesh input_;  ///< as it came, if stages are measured
 };
 
-/// The same with an ear set aside: the one triangle that an odd boundary leaves.
+/// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.
 std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
-                                           double allowed) {
+                                           double allowed, std::size_t& cost) {
   if (region.boundary_sides % 2 == 0 || !is_small(region, options) || allowed <= 0) return {};
   const std::optional<Ear> ear = sharpest_ear(region);
   if (!ear) return {};
@@ -272,6 +231,7 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
     const Region rest = cut_off(region, *ear);
     RegionConverter converter(rest, plane, options, allowed);
     Attempt result = converter.run();
+    cost += converter.cost();
     put_back(result.mesh, *ear);
     ++result.report.leftover_triangles;  // the front leaves the ear, too
     for (auto& stage : result.record.stages)
@@ -289,8 +249,10 @@ kernel::Mesh convert_region(const Region& region, const Plane& plane, const Opti
   const std::size_t size = region.triangles.size();
   RegionConverter converter(region, plane, options, allowed);
   Attempt best = converter.run();
-  if (auto other = convert_without_ear(region, plane, options, allowed - double(converter.cost())))
+  std::size_t cost = converter.cost();
+  if (auto other = convert_without_ear(region, plane, options, allowed - double(cost), cost))
     if (worth_of(other->mesh, size).sum() > worth_of(best.mesh, size).sum()) best = std::move(*other);
+  best.mesh.add_work(cost - best.mesh.work());
   report = best.report;
   record = std::move(best.record);
   return std::move(best.mesh);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One region of triangles becomes quads.
 
@@ -9,9 +10,10 @@
 
 namespace qmorph {
 
-/// All stages on one region. In a small region a single decision of the front decides how good the result is, and nobody can tell
-/// which: if the result is poor, other constants of the front are tried as well (`Options::retry_triangles`), and
-/// the best result is taken, all for about as much work as is allowed (allowance.hpp).
+/// All stages on one region. In a small region a single decision of the front decides how good the result is, and
+/// nobody can tell which: if the result is poor, other constants of the front are tried as well
+/// (`Options::retry_triangles`), and the best result is taken, all for about as much work as is allowed
+/// (allowance.hpp). What it has cost is the work of the mesh.
 /// \throws SurfaceError if no valid result was found
 kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, double allowed,
                             ConversionReport& report, Record& record);

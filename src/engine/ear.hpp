@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where the boundary is odd, one triangle stays. In a sharp corner of the boundary it does least harm: a quad there would be
-/// poor. An ear is a triangle with two sides on the boundary; its tip is the corner between them.
+/// Where the boundary is odd, one triangle stays. In a sharp corner of the boundary it does least harm: a quad there
+/// would be poor. An ear is a triangle with two sides on the boundary; its tip is the corner between them.
 
 #include <optional>
 

@@ -102,13 +102,13 @@ kernel::Mesh make_anew(const ImproveStart& start, const Plane& plane, Pipeline& 
 ImproveStart start_improving(const Region& region, kernel::Mesh mesh, const Plane& plane, const Options& options) {
   ImproveStart start{region, std::move(mesh)};
   mend_quads(start.mesh, options.smoothing, plane);
-  repair_input(start.mesh, plane);
+  repair_input(start.mesh, region.node, plane);
   take_triangles(start.mesh, start.region);
   return start;
 }
 
-kernel::Mesh improve_region(const ImproveStart& start, const kernel::Mesh& input, const Plane& plane, const Options& options,
-                            double allowed, ConversionReport& report, Record& record) {
+kernel::Mesh improve_region(const ImproveStart& start, const kernel::Mesh& input, const Plane& plane,
+                            const Options& options, double allowed, ConversionReport& report, Record& record) {
   const Figures before = figures_of(input);
   Pipeline pipeline(options, report, record, input, allowed);
   kernel::Mesh best = make_anew(start, plane, pipeline);

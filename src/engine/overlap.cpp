@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/overlap.hpp"
 
 #include <algorithm>
@@ -33,9 +34,10 @@ void require_single_cover(const Region& region, const Plane& plane) {
       const Vec2& p = region.points[t[i]];
       if (!holds_x_axis(region.points[t[(i + 1) % 3]] - p, region.points[t[(i + 2) % 3]] - p)) continue;
       if (++covers[t[i]] > 1)
-        throw SurfaceError("the triangles around the node at " + describe(plane.to_space(p)) +
-                               " overlap; mesh the surface anew or repair it",
-                           {.kind = ErrorKind::overlap, .place = plane.to_space(p)});
+        throw SurfaceError(
+            "the triangles around the node at " + describe(plane.to_space(p)) +
+                " overlap; mesh the surface anew or repair it",
+            {.kind = ErrorKind::overlap, .place = plane.to_space(p), .subject = node_row(region.node[t[i]])});
     }
 }
 
@@ -52,8 +54,8 @@ std::vector<Segment> outline_of(const std::vector<Region>& regions) {
   return outline;
 }
 
-/// A line sweeps from left to right over segments and keeps those that it meets in their order along it. Before two cross, they are
-/// neighbours there. [ShamosHoey76] Segments may share ends and coincide.
+/// A line sweeps from left to right over segments and keeps those that it meets in their order along it. Before two
+/// cross, they are neighbours there. [ShamosHoey76] Segments may share ends and coincide.
 class Sweep {
  public:
   explicit Sweep(const std::vector<Segment>& segments)

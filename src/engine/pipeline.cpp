@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/pipeline.hpp"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ constexpr bool kChecksAlways = false;
 
 using Clock = std::chrono::steady_clock;
 
-/// How much of the work that it may cost a region has spent at most when these are done; what one leaves is for those after it.
+/// How much of the work that it may cost a region has spent at most when these are done; what one leaves is for those
+/// after it.
 constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
                  kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
 
@@ -129,7 +131,8 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   progress("smoothing", 0.8);
   smoothing::smooth(mesh, options_.smoothing, until(mesh, kFinalSmoothing));
   end_stage(Stage::final_smoothing, mesh, report_.smoothing_seconds);
-  const kernel::Budget repair = until(mesh, kRepair), shape = until(mesh, kShape), cavities = until(mesh, kPoorCavities);
+  const kernel::Budget repair = until(mesh, kRepair), shape = until(mesh, kShape),
+                       cavities = until(mesh, kPoorCavities);
   cleanup::repair(mesh, options_.smoothing, repair);
   note(repair);
   cleanup::clean_up_shape(mesh, options_.cleanup, options_.smoothing, shape);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The stages, one after another, on one region.
 
@@ -17,8 +18,8 @@ namespace qmorph {
 
 class Pipeline {
  public:
-  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it. What makes the mesh better
-  /// ends when all together has cost as much work as is allowed (allowance.hpp).
+  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it. What makes
+  /// the mesh better ends when all together has cost as much work as is allowed (allowance.hpp).
   Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start, double allowed);
 
   /// Triangles to quads, as far as the front comes. `plane` is for the observer. \throws Cancelled, as all stages do
@@ -26,8 +27,8 @@ class Pipeline {
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 
-  /// finish() is clean() and polish(). In between, parts that were cleaned side by side may be joined; then irregular nodes near their
-  /// interfaces cancel.
+  /// finish() is clean() and polish(). In between, parts that were cleaned side by side may be joined; then irregular
+  /// nodes near their interfaces cancel.
   void clean(kernel::Mesh& mesh);
   void clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface);
   void polish(kernel::Mesh& mesh);
@@ -52,7 +53,8 @@ class Pipeline {
 
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree);
 
-/// What contradicts invariants I4 and I5; nothing if nothing does. The stages keep them step by step; this is the last word.
+/// What contradicts invariants I4 and I5; nothing if nothing does. The stages keep them step by step; this is the last
+/// word.
 std::optional<SurfaceError> find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane);
 
 }  // namespace qmorph

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -55,8 +56,8 @@ Plane axes_for(const Vector3d& normal) {
     u = (u - u.dot(normal) / normal.squaredNorm() * normal).normalized();
     v = normal.cross(u).normalized();
   }
-  plane.axis_u = u;
-  plane.axis_v = v;
+  plane.axis_u = plane.dual_u = u;
+  plane.axis_v = plane.dual_v = v;
   return plane;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/prepare.hpp"
 
 #include "engine/regions.hpp"
@@ -36,6 +37,13 @@ bool move_away(Mesh& mesh, Index f) {
   return done;
 }
 
+/// The first corner of a face as a row of the patch; nothing for a node of ours.
+std::optional<ErrorSubject> subject_of(const Mesh& mesh, const std::vector<Index>& node, Index f) {
+  const Index v = mesh.origin(mesh.half_edge(f));
+  if (v >= node.size() || node[v] == kNone) return std::nullopt;
+  return node_row(node[v]);
+}
+
 }  // namespace
 
 std::string corners_of(const Mesh& mesh, const Plane& plane, Index f) {
@@ -49,23 +57,24 @@ Eigen::Vector3d corner_of(const Mesh& mesh, const Plane& plane, Index f) {
   return plane.to_space(mesh.point(mesh.origin(mesh.half_edge(f))));
 }
 
-void repair_input(Mesh& mesh, const Plane& plane) {
+void repair_input(Mesh& mesh, const std::vector<Index>& node, const Plane& plane) {
   std::vector<Index> flat;
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f) || mesh.is_valid_face(f)) continue;
     const auto n = topology::nodes_of(mesh, f);
     if (orientation(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])) < 0 &&
         mesh.smallest_sine(f) < -kDegenerateSine)
-      throw SurfaceError("the triangle " + corners_of(mesh, plane, f) +
-                             " is turned over, so triangles overlap; mesh the surface anew or repair it",
-                         {.kind = ErrorKind::overlap, .place = corner_of(mesh, plane, f)});
+      throw SurfaceError(
+          "the triangle " + corners_of(mesh, plane, f) +
+              " is turned over, so triangles overlap; mesh the surface anew or repair it",
+          {.kind = ErrorKind::overlap, .place = corner_of(mesh, plane, f), .subject = subject_of(mesh, node, f)});
     flat.push_back(f);
   }
   for (Index f : flat)
     if (!mesh.is_valid_face(f) && !swap_away(mesh, f) && !move_away(mesh, f))
       throw SurfaceError(
           "the triangle " + corners_of(mesh, plane, f) + " has no area and its nodes are fixed; remove or collapse it",
-          {.kind = ErrorKind::bad_element, .place = corner_of(mesh, plane, f)});
+          {.kind = ErrorKind::bad_element, .place = corner_of(mesh, plane, f), .subject = subject_of(mesh, node, f)});
 }
 
 std::optional<SurfaceError> find_needles(const Mesh& mesh, const Plane& plane) {

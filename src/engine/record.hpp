@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What an observer is told in the end. Until then it is kept beside the result: a try that is not taken leaves no trace.
+/// What an observer is told in the end. Until then it is kept beside the result: a try that is not taken leaves no
+/// trace.
 
 #include <array>
 #include <memory>

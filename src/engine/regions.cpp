@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/regions.hpp"
 
 #include <algorithm>
@@ -9,13 +10,12 @@
 namespace qmorph {
 namespace {
 
-/// The triangles along a Z-curve, with nodes that are numbered as they come: then what lies close together does so in memory,
-/// however the mesher has numbered it. Side c runs from the node of corner c to that of the next corner. Corners of triangle k
-/// are 3 k, 3 k + 1, 3 k + 2.
+/// The triangles along a Z-curve, with nodes that are numbered as they come: then what lies close together does so in
+/// memory, however the mesher has numbered it. Side c runs from the node of corner c to that of the next corner.
+/// Corners of triangle k are 3 k, 3 k + 1, 3 k + 2.
 class Sides {
  public:
-  Sides(const Patch& patch, const std::vector<Index>& order, EdgesOfMany many)
-      : opposite_(3 * order.size(), kNone) {
+  Sides(const Patch& patch, const std::vector<Index>& order, EdgesOfMany many) : opposite_(3 * order.size(), kNone) {
     take_nodes(patch, order);
     first_.assign(row_.size(), kNone);
     edges_.reserve(node_.size() / 2 + node_.size() / 16);
@@ -67,7 +67,8 @@ class Sides {
     }
   }
 
-  /// Sides on edges that have three triangles or more, or that are constraints and not passed in both directions; ascending.
+  /// Sides on edges that have three triangles or more, or that are constraints and not passed in both directions;
+  /// ascending.
   std::vector<Index> sides_of_many(const Patch& patch) const {
     struct Side {
       Index low, high, side;
@@ -86,9 +87,11 @@ class Sides {
     std::sort(lines.begin(), lines.end());
     std::vector<Index> many;
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-      while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
+      while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high)
+        ++last;
       const bool alike = last - first == 2 && node_[sides[first].side] == node_[sides[first + 1].side];
-      const bool on_line = std::binary_search(lines.begin(), lines.end(), std::pair(sides[first].low, sides[first].high));
+      const bool on_line =
+          std::binary_search(lines.begin(), lines.end(), std::pair(sides[first].low, sides[first].high));
       if (last - first > 2 || (alike && on_line))
         for (std::size_t k = first; k < last; ++k) many.push_back(sides[k].side);
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/surface.hpp"
 
 #include <chrono>
@@ -9,6 +10,7 @@
 #include "engine/collector.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
+#include "qmorph/error.hpp"
 #include "quality/directed_size.hpp"
 #include "quality/size_ratio.hpp"
 
@@ -41,6 +43,24 @@ SurfaceRecord record_of(const Surface& surface, const Options& options, std::vec
 /// Triangles that it has, or could have.
 double weight(const Patch& patch) { return double(patch.triangles.size() + 2 * patch.quads.size()); }
 
+/// An error about a place at which the region has a node is about that node.
+SurfaceError with_node(const SurfaceError& error, const Surface& surface, const Region& region) {
+  ErrorDetails details = error.details();
+  if (details.subject || !details.place) return error;
+  constexpr double kRounding = 1e-12;
+  const Vec2 place = surface.plane.to_plane(*details.place);
+  const auto distance = [&](Index v) { return (region.points[v] - place).squaredNorm(); };
+  Index nearest = 0, farthest = 0;
+  for (Index v = 0; v < region.points.size(); ++v) {
+    if (distance(v) < distance(nearest)) nearest = v;
+    if (distance(v) > distance(farthest)) farthest = v;
+  }
+  if (distance(nearest) > kRounding * kRounding * distance(farthest)) return error;
+  details.subject = node_row(region.node[nearest]);
+  details.place = surface.patch.points[region.node[nearest]];
+  return SurfaceError(error.what(), details);
+}
+
 SurfaceWork work_and_measure(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result = work(patch, options);
   const QuadMesh& mesh = result.conversion.mesh;
@@ -70,7 +90,11 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, cons
     Options own = options;
     own.progress = progress[r];
     const double allowed = part_of(allowance(triangles), surface.regions[r].triangles.size(), triangles, meshes.size());
-    meshes[r] = work(r, own, allowed, reports[r], records[r]);
+    try {
+      meshes[r] = work(r, own, allowed, reports[r], records[r]);
+    } catch (const SurfaceError& error) {
+      throw with_node(error, surface, surface.regions[r]);
+    }
   });
   shared.finish();
 
@@ -109,9 +133,8 @@ class Patches {
   }
 
   std::vector<Outcome> run() {
-    parallel::with_threads(options_.threads, [&] {
-      parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); });
-    });
+    parallel::with_threads(options_.threads,
+                           [&] { parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); }); });
     shared_.finish();
     for (std::size_t i = 0; options_.observer && i < patches_.size(); ++i) records_[i].tell(*options_.observer, i);
     return std::move(outcomes_);

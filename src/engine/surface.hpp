@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What convert() and improve() have in common: a surface is laid into its plane, its regions are worked on one by one,
 /// and what they have become is put together.
@@ -31,8 +32,8 @@ struct SurfaceWork {
   SurfaceRecord record;
 };
 
-/// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much work as is allowed
-/// (allowance.hpp).
+/// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much
+/// work as is allowed (allowance.hpp).
 using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, double allowed,
                                         ConversionReport& report, Record& record)>;
 

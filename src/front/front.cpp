@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "front/front.hpp"
 
 #include <algorithm>
@@ -14,7 +15,8 @@ constexpr unsigned kForced = 0;
 constexpr int kPriorityShift = 14, kLevelShift = 16;
 constexpr unsigned kMostLevels = 0xffff;
 
-/// Four classes an octave: exponent and leading two bits of the mantissa. Exact, so that no rounding of a logarithm decides.
+/// Four classes an octave: exponent and leading two bits of the mantissa. Exact, so that no rounding of a logarithm
+/// decides.
 unsigned length_class(double length) { return unsigned(std::bit_cast<std::uint64_t>(length) >> 50); }
 
 bool is_forced(std::uint32_t key) { return (key >> kPriorityShift & 3) == kForced; }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The advancing front: which half-edges are on it, in which state, and which comes next.
 ///
@@ -98,8 +99,8 @@ class Front {
   bool was_forced() const { return popped_forced_; }
 
  private:
-  /// What decides between front edges, the lower the sooner: level, then state, then length, in one number. Lengths of one class
-  /// are equal here: neighbours come one after another then, which is good for rows and for caches. Never 0.
+  /// What decides between front edges, the lower the sooner: level, then state, then length, in one number. Lengths of
+  /// one class are equal here: neighbours come one after another then, which is good for rows and for caches. Never 0.
   using Key = std::uint32_t;
   static Key key_of(unsigned level, unsigned priority, double length);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A set of indices that is emptied in no time: for small sets, many times over.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "front/morph.hpp"
 
 #include <algorithm>
@@ -184,7 +185,8 @@ class Morph {
   /// Notes what the node between two front edges is in the states of both.
   void note_corner(Index in, Index out) { states_[in].right = states_[out].left = front_.is_corner(in, out); }
 
-  /// Seam, transition seam or transition split at one end of the base edge, between the front edges in and out. Thesis 2.2.4.
+  /// Seam, transition seam or transition split at one end of the base edge, between the front edges in and out. Thesis
+  /// 2.2.4.
   bool special_case(const Base& base, Index in, Index out) {
     if (in == out || Mesh::twin(in) == out) return false;
     const double l1 = mesh_.length(in), l2 = mesh_.length(out);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The advancing front as a whole. Thesis chapter 2, [Owen99].
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What every step of the advancing front works on. A step either succeeds or reports that it did not; the driver
 /// runs each in a transaction of the mesh, so a step that gives up half-way has changed nothing.
@@ -93,7 +94,8 @@ bool close_small_loop(Step& step, const SmallLoop& small);
 
 // --- local_smoothing.cpp ------------------------------------------------------------------------------------
 
-/// Smooths the nodes of a face, and the neighbours of those that move, and notes in `step.moved` which of the front moved. Thesis 3.5.5.
+/// Smooths the nodes of a face, and the neighbours of those that move, and notes in `step.moved` which of the front
+/// moved. Thesis 3.5.5.
 void smooth_around(Step& step, Index face);
 
 /// New node at p on the edge of h, whose faces are triangles: both are split. Returns the node.

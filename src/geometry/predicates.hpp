@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Exact signs. A decision that changes the mesh rests on these, never on an epsilon.
 
@@ -27,8 +28,8 @@ inline bool is_convex_corner(const Vec2& a, const Vec2& b, const Vec2& c, double
   return area > 0 && area * area > least_sine * least_sine * to_next.squaredNorm() * to_previous.squaredNorm();
 }
 
-/// Every corner of the triangle is convex and its sine is above `sine`. No roots, no divisions: the smallest angle lies between
-/// the two longest sides.
+/// Every corner of the triangle is convex and its sine is above `sine`. No roots, no divisions: the smallest angle lies
+/// between the two longest sides.
 inline bool is_triangle_above(const Vec2& a, const Vec2& b, const Vec2& c, double sine) {
   const Vec2 ab = b - a, bc = c - b, ca = a - c;
   const double l1 = ab.squaredNorm(), l2 = bc.squaredNorm(), l3 = ca.squaredNorm(), area = cross(ab, bc);

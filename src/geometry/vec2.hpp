@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Plane vectors. Angles are in radians, counter-clockwise positive.
 
@@ -20,9 +21,7 @@ inline Vec2 rotated(const Vec2& v, double angle) {
 }
 
 /// Counter-clockwise angle from `a` to `b`, in (-pi, pi].
-inline double signed_angle(const Vec2& a, const Vec2& b) {
-  return std::atan2(cross(a, b), a.dot(b));
-}
+inline double signed_angle(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
 /// Counter-clockwise angle from `a` to `b`, in [0, 2 pi).
 inline double ccw_angle(const Vec2& a, const Vec2& b) {

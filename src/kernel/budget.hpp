@@ -7,8 +7,8 @@
 
 namespace qmorph::kernel {
 
-/// How much an improvement may cost: work on a mesh (`Mesh::work()`), never time, so that it ends at the same place on every
-/// machine. What makes a mesh better looks at it before each try; what makes a mesh valid does not.
+/// How much an improvement may cost: work on a mesh (`Mesh::work()`), never time, so that it ends at the same place on
+/// every machine. What makes a mesh better looks at it before each try; what makes a mesh valid does not.
 class Budget {
  public:
   /// Without a bound.

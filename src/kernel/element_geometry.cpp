@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What Mesh says about the shape and size of its elements.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernel/mesh.hpp"
 
 #include <algorithm>
@@ -37,8 +38,8 @@ void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<I
   faces_.reserve(with_room(faces.size()));
   half_edges_.reserve(with_room(faces.size() * N));
 
-  // Edges that wait for their other half, in a chain from that of their vertices which has fewer corners: chains are short, then,
-  // even where fans meet.
+  // Edges that wait for their other half, in a chain from that of their vertices which has fewer corners: chains are
+  // short, then, even where fans meet.
   std::vector<Index> corners(vertices_.size(), 0);
   for (const auto& face : faces)
     for (Index i = 0; i < corners_of(face); ++i) ++corners[face[i]];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Half-edge mesh of one region: faces of degree 3 and 4 (more for a moment, inside an operation), 32-bit indices,
 /// every edit O(1) or O(valence). The outside is linked too, so that going round a vertex needs no
@@ -74,7 +75,8 @@ class Mesh {
       h = next(h);
     } while (h != start);
   }
-  /// Edges at v, or `kManyEdges` for so many and more: those who ask want to tell few, and walking round a fan each time is quadratic.
+  /// Edges at v, or `kManyEdges` for so many and more: those who ask want to tell few, and walking round a fan each
+  /// time is quadratic.
   Index valence(Index v) const;
   static constexpr Index kManyEdges = 64;
   /// Of all vertices, by vertex; 0 for dead ones.
@@ -95,7 +97,8 @@ class Mesh {
   bool is_valid_face(Index f) const;
   /// Every face around v is valid.
   bool is_valid_star(Index v) const;
-  /// All corners of the face (of the faces around v) are convex and have a larger sine than this. Cheaper than the sine itself.
+  /// All corners of the face (of the faces around v) are convex and have a larger sine than this. Cheaper than the sine
+  /// itself.
   bool is_above(Index f, double sine) const;
   bool is_star_above(Index v, double sine) const;
   /// Smallest sine of the face's corners, signed: its scaled Jacobian.
@@ -135,7 +138,8 @@ class Mesh {
   /// `faces` are the faces inside. Returns the face.
   Index make_face(std::span<const Index> ring, std::span<const Index> inside);
 
-  /// New triangle outside of the boundary half-edge h, with a vertex v that has no element yet, at its point. Returns the face.
+  /// New triangle outside of the boundary half-edge h, with a vertex v that has no element yet, at its point. Returns
+  /// the face.
   Index attach_triangle(Index h, Index v);
 
   // --- transactions ------------------------------------------------------------------------------------
@@ -144,11 +148,12 @@ class Mesh {
   void commit();
   void rollback();
   bool in_transaction() const { return recording_; }
-  /// Values set in transactions so far, whether they were kept or not, and elements that somebody says he has looked at: a measure
-  /// of work that is the same on every machine.
+  /// Values set in transactions so far, whether they were kept or not, and elements that somebody says he has looked
+  /// at: a measure of work that is the same on every machine.
   std::size_t work() const { return work_; }
   void add_work(std::size_t elements) { work_ += elements; }
-  /// Calls visit(index) for what the last transaction edited, some more than once, some dead by now. Until the next begin().
+  /// Calls visit(index) for what the last transaction edited, some more than once, some dead by now. Until the next
+  /// begin().
   template <class Visit>
   void for_edited_vertices(const Visit& visit) const {
     for (const auto& edit : vertex_pool_.old_values) visit(edit.first);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Slots and transactions of the half-edge mesh. Slots of dead elements are used again, last first; a
 /// transaction keeps the old value of everything it touches, so that a rollback restores every bit,
 /// the free lists included.
@@ -93,8 +94,7 @@ void Mesh::commit_pool(Pool<T>& pool) {
 template <class T>
 void Mesh::rollback_pool(Pool<T>& pool, std::vector<T>& values) {
   work_ += pool.old_values.size();
-  for (auto it = pool.old_values.rbegin(); it != pool.old_values.rend(); ++it)
-    values[it->first] = it->second;
+  for (auto it = pool.old_values.rbegin(); it != pool.old_values.rend(); ++it) values[it->first] = it->second;
   values.resize(pool.size_at_begin);
   pool.free.insert(pool.free.end(), pool.taken.rbegin(), pool.taken.rend());
 }

@@ -54,8 +54,7 @@ Cell make_cell(const Sides& sides, Index base, Index diagonal) {
     for (std::size_t i = 0; i < 4; ++i)
       if (cell.nodes[i] == node) cell.angles[i] = angle;
   };
-  set_angle(sides.from(diagonal),
-            corner_at(sides, diagonal).angle() + corner_at(sides, Sides::next(across)).angle());
+  set_angle(sides.from(diagonal), corner_at(sides, diagonal).angle() + corner_at(sides, Sides::next(across)).angle());
   set_angle(sides.to(diagonal), corner_at(sides, Sides::next(diagonal)).angle() + corner_at(sides, across).angle());
   set_angle(sides.apex(diagonal), corner_at(sides, Sides::previous(diagonal)).angle());
   set_angle(sides.apex(across), corner_at(sides, Sides::previous(across)).angle());

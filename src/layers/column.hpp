@@ -34,8 +34,8 @@ std::optional<Cell> best_cell(const Cells& cells, const Column& column);
 /// By how much the worst corner of a cell is off what the column expects, in radians.
 double misfit(const Cell& cell, const Column& column);
 
-/// True if a cell goes on with the column. One that is not much longer than high could be two triangles of any mesh, and must
-/// look more like the one below. Beside a cell that is taken, less is asked for.
+/// True if a cell goes on with the column. One that is not much longer than high could be two triangles of any mesh,
+/// and must look more like the one below. Beside a cell that is taken, less is asked for.
 bool goes_on(const Sides& sides, const Column& column, const Cell& cell, bool is_beside);
 
 /// Cells that are not longer than that times their height are near to isotropic.

@@ -4,8 +4,8 @@
 namespace qmorph::layers {
 namespace {
 
-/// What lies between two columns at a node: columns that grow from the triangles at the tip, from right to left. They have
-/// no first row: there the triangles are.
+/// What lies between two columns at a node: columns that grow from the triangles at the tip, from right to left. They
+/// have no first row: there the triangles are.
 struct Fan {
   const Column *right = nullptr, *left = nullptr;  ///< on the walls
   std::vector<Column> columns;
@@ -42,7 +42,8 @@ bool take_row(Cells& cells, Fan& fan, std::size_t row) {
     if (!found.empty() && sides.opposite(cell->right) != found.back().left) return false;
     found.push_back(*cell);
   }
-  if (!fits(cells, found.front().right, *fan.right, row) || !fits(cells, found.back().left, *fan.left, row)) return false;
+  if (!fits(cells, found.front().right, *fan.right, row) || !fits(cells, found.back().left, *fan.left, row))
+    return false;
   for (std::size_t i = 0; i < found.size(); ++i) grow(sides, fan.columns[i], cells.take(found[i]), found[i]);
   return true;
 }

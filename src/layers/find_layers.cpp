@@ -21,20 +21,25 @@ bool is_thin(const Patch& patch, const std::array<Index, 3>& t) {
 }
 
 /// A quick look: false if thin triangles are too few, or too far from each other, to be a row of cells.
-bool may_have_layers(const Patch& patch) {
-  std::vector<Index> thin, nodes;
-  for (Index t = 0; t < patch.triangles.size(); ++t)
-    if (is_thin(patch, patch.triangles[t])) thin.push_back(t);
-  for (Index t : thin) nodes.insert(nodes.end(), patch.triangles[t].begin(), patch.triangles[t].end());
-  std::sort(nodes.begin(), nodes.end());
-  const auto is_shared = [&](Index v) {
-    const auto [first, last] = std::equal_range(nodes.begin(), nodes.end(), v);
-    return last - first > 1;
+bool may_be_row(const Patch& patch, const std::vector<Index>& thin) {
+  std::vector<std::pair<Index, Index>> at_node;  // thin triangles, by their numbers among these
+  for (Index i = 0; i < thin.size(); ++i)
+    for (Index v : patch.triangles[thin[i]]) at_node.emplace_back(v, i);
+  std::sort(at_node.begin(), at_node.end());
+  std::vector<Index> joined(thin.size());
+  std::vector<std::size_t> count(thin.size(), 1);
+  for (Index i = 0; i < thin.size(); ++i) joined[i] = i;
+  const auto find = [&](Index i) {
+    while (joined[i] != i) i = joined[i] = joined[joined[i]];
+    return i;
   };
-  std::size_t beside_others = 0;
-  for (Index t : thin) {
-    const auto& n = patch.triangles[t];
-    if (std::any_of(n.begin(), n.end(), is_shared) && ++beside_others >= kRow) return true;
+  for (std::size_t i = 1; i < at_node.size(); ++i) {
+    if (at_node[i].first != at_node[i - 1].first) continue;
+    const Index a = find(at_node[i].second), b = find(at_node[i - 1].second);
+    if (a == b) continue;
+    joined[a] = b;
+    count[b] += count[a];
+    if (count[b] >= 2 * kRow) return true;
   }
   return false;
 }
@@ -115,19 +120,23 @@ class Writer {
 
 void drop_cells_at(Cells& cells, const std::vector<bool>& nodes) {
   for (Index i = 0; i < cells.size(); ++i)
-    if (cells.is_live(i) && std::any_of(cells[i].nodes.begin(), cells[i].nodes.end(), [&](Index v) { return nodes[v]; }))
+    if (cells.is_live(i) &&
+        std::any_of(cells[i].nodes.begin(), cells[i].nodes.end(), [&](Index v) { return nodes[v]; }))
       cells.drop(i);
 }
 
 }  // namespace
 
 std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& without) {
-  if (!may_have_layers(patch)) return std::nullopt;
+  std::vector<Index> thin;
+  for (Index t = 0; t < patch.triangles.size(); ++t)
+    if (is_thin(patch, patch.triangles[t])) thin.push_back(t);
+  if (!may_be_row(patch, thin)) return std::nullopt;
   const Sides sides(patch);
   Cells cells(sides);
   const std::vector<Column> columns = take_columns_on_walls(cells);
   take_fans(cells, columns);
-  take_strips(cells);
+  take_strips(cells, thin);
   if (cells.size() == 0) return std::nullopt;
   const Parts regions = all_parts(sides);
   drop_broken_rows(cells, regions);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kFew = 16;
 
-/// Joined by inner edges, triangles without a node inside are a tree: a leaf has one neighbour to be paired with, and so on. Nothing
-/// if that does not go up, or makes a poor quad.
+/// Joined by inner edges, triangles without a node inside are a tree: a leaf has one neighbour to be paired with, and
+/// so on. Nothing if that does not go up, or makes a poor quad.
 std::vector<Cell> pair_tree(const Sides& sides, std::vector<Index> triangles) {
   std::vector<Cell> cells;
   while (!triangles.empty()) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "layers/forest.hpp"
+
 namespace qmorph::layers {
 namespace {
 
@@ -71,17 +73,17 @@ std::size_t count_beyond(const Cells& cells, Index c) {
   return found.size() - 1;
 }
 
-/// A triangle at the tip of a fan becomes two, which are halves of a straight angle. They should not be a pair, but have one
-/// each on both sides.
+/// A triangle at the tip of a fan becomes two, which are halves of a straight angle. They should not be a pair, but
+/// have one each on both sides.
 bool leaves_pairs(const Cells& cells, const Parts& parts, Index start) {
   constexpr std::size_t kFew = 16;
   if (parts.sizes[parts.part_of[start / 3]] > kFew) return true;
   return count_beyond(cells, Sides::next(start)) % 2 == 1 && count_beyond(cells, Sides::previous(start)) % 2 == 1;
 }
 
-/// The best cut between each two parts, from the lower to the higher number: of those that leave pairs at their ends the one with
-/// the longest end.
-using Links = std::map<std::pair<Index, Index>, Cut>;
+/// The best cut between each two parts, from the lower to the higher number: of those that leave pairs at their ends
+/// the one with the longest end.
+using Links = std::map<Edge, Cut>;
 
 Links link_parts(const Cells& cells, const Parts& parts) {
   const Sides& sides = cells.sides();
@@ -102,54 +104,16 @@ Links link_parts(const Cells& cells, const Parts& parts) {
   return links;
 }
 
-/// Trees of parts that cuts join: oddness goes from a part to the one above it, so that only the root's is left.
-class Forest {
- public:
-  Forest(const Parts& parts, const Links& links) : parent_(parts.sizes.size(), kNone), root_(parent_), via_(parent_.size()) {
-    std::vector<std::vector<std::pair<Index, const Cut*>>> joined(parent_.size());
-    for (const auto& [ends, cut] : links) {
-      joined[ends.first].emplace_back(ends.second, &cut);
-      joined[ends.second].emplace_back(ends.first, &cut);
-    }
-    std::vector<Index> by_size(parent_.size());
-    for (Index i = 0; i < by_size.size(); ++i) by_size[i] = i;
-    std::stable_sort(by_size.begin(), by_size.end(), [&](Index a, Index b) { return parts.sizes[a] > parts.sizes[b]; });
-    for (Index first : by_size) {
-      if (root_[first] != kNone) continue;
-      root_[first] = first;
-      order_.push_back(first);
-      for (std::size_t next = order_.size() - 1; next < order_.size(); ++next)
-        for (const auto& [other, cut] : joined[order_[next]]) {
-          if (root_[other] != kNone) continue;
-          root_[other] = first;
-          parent_[other] = order_[next];
-          via_[other] = cut;
-          order_.push_back(other);
-        }
-    }
-    is_odd_.resize(parent_.size());
-    for (Index i = 0; i < parent_.size(); ++i) is_odd_[i] = parts.is_odd(i);
-    for (auto part = order_.rbegin(); part != order_.rend(); ++part)
-      if (is_odd_[*part] && parent_[*part] != kNone) {
-        is_odd_[*part] = false;
-        is_odd_[parent_[*part]] = !is_odd_[parent_[*part]];
-        cuts_.push_back(*via_[*part]);
-      }
-  }
+/// Parts and the cuts between them: an odd part and the one at the other end are both the opposite after a cut.
+Forest join_by_cuts(const Parts& parts, const std::vector<Edge>& ends) {
+  std::vector<bool> is_odd(parts.sizes.size());
+  std::vector<Index> by_size(parts.sizes.size());
+  for (Index i = 0; i < by_size.size(); ++i) by_size[i] = i, is_odd[i] = parts.is_odd(i);
+  std::stable_sort(by_size.begin(), by_size.end(), [&](Index a, Index b) { return parts.sizes[a] > parts.sizes[b]; });
+  return Forest(std::move(is_odd), ends, by_size);
+}
 
-  Index root(Index part) const { return root_[part]; }
-  bool is_odd_tree(Index part) const { return is_odd_[root_[part]]; }
-  const std::vector<Cut>& cuts() const { return cuts_; }
-
- private:
-  std::vector<Index> parent_, root_;  ///< by part
-  std::vector<const Cut*> via_;       ///< by part, to its parent
-  std::vector<Index> order_;          ///< parents first
-  std::vector<bool> is_odd_;          ///< by part, after the cuts
-  std::vector<Cut> cuts_;
-};
-
-/// Drops cells on the shortest ways between trees, for each odd one that has to go with another.
+/// Drops cells on the shortest ways between trees, so that the odd ones come together in pairs.
 class TreeJoiner {
  public:
   TreeJoiner(Cells& cells, const Parts& parts, const Forest& forest)
@@ -165,33 +129,53 @@ class TreeJoiner {
 
   /// \return false if no cell lies between any two of them
   bool join(const std::vector<bool>& must_join) {
-    struct Meeting {
-      std::size_t length = std::size_t(-1);
-      Index here = kNone, there = kNone;
-    };
-    std::map<Index, Meeting> best;  // by tree
-    for (Index here : order_)
-      for_each_side(here, [&](Index c) {
-        const Sides& sides = cells_.sides();
-        if (sides.is_wall(c)) return;
-        const Index there = cells_.owner(sides.opposite(c) / 3);
-        if (there == kNone || tree_[there] == tree_[here] || !must_join[tree_[here]]) return;
-        Meeting& meeting = best[tree_[here]];
-        const std::size_t length = distance_[here] + distance_[there];
-        if (length < meeting.length) meeting = {length, here, there};
-      });
-    // One cell may lie between two trees by itself.
-    for (const auto& [cell, other] : shared_)
-      for (Index tree : {tree_[cell], other})
-        if (must_join[tree] && best[tree].length > distance_[cell]) best[tree] = {distance_[cell], cell, kNone};
-    for (const auto& [tree, meeting] : best)
+    const std::map<Edge, Meeting> meetings = find_meetings();
+    std::vector<std::pair<std::size_t, Edge>> by_length;
+    for (const auto& [trees, meeting] : meetings) by_length.emplace_back(meeting.length, trees);
+    std::sort(by_length.begin(), by_length.end());
+    std::vector<Edge> edges;
+    for (const auto& [length, trees] : by_length) edges.push_back(trees);
+    edges = spanning_edges(must_join.size(), edges);
+
+    std::vector<Index> roots;  // one that is odd, where there is one
+    for (const bool is_odd : {true, false})
+      for (Index tree = 0; tree < must_join.size(); ++tree)
+        if (must_join[tree] == is_odd) roots.push_back(tree);
+    const Forest pairs(must_join, edges, roots);
+    for (Index e : pairs.used()) {
+      const Meeting& meeting = meetings.at(edges[e]);
       for (Index end : {meeting.here, meeting.there})
         for (Index at = end; at != kNone; at = from_[at])
           if (cells_.is_live(at)) cells_.drop(at);
-    return !best.empty();
+    }
+    return !pairs.used().empty();
   }
 
  private:
+  /// The cells in the middle of a way between two trees; one only, or two side by side.
+  struct Meeting {
+    std::size_t length = std::size_t(-1);
+    Index here = kNone, there = kNone;
+  };
+
+  /// The shortest ways, by trees, the lower number first.
+  std::map<Edge, Meeting> find_meetings() const {
+    std::map<Edge, Meeting> best;
+    const auto meet = [&](Index one, Index two, const Meeting& meeting) {
+      Meeting& known = best[std::minmax(one, two)];
+      if (meeting.length < known.length) known = meeting;
+    };
+    for (const auto& [cell, other] : shared_) meet(tree_[cell], other, {distance_[cell], cell, kNone});
+    const Sides& sides = cells_.sides();
+    for (Index here : order_)
+      for_each_side(here, [&](Index c) {
+        const Index there = sides.is_wall(c) ? kNone : cells_.owner(sides.opposite(c) / 3);
+        if (there != kNone && tree_[there] != tree_[here])
+          meet(tree_[here], tree_[there], {distance_[here] + distance_[there], here, there});
+      });
+    return best;
+  }
+
   template <class Visit>
   void for_each_side(Index cell, const Visit& visit) const {
     for (Index c : {cells_[cell].base, cells_[cell].right, cells_[cell].top, cells_[cell].left}) visit(c);
@@ -265,10 +249,15 @@ std::vector<Cut> make_even(Cells& cells, const Parts& regions) {
   while (true) {
     const Parts parts = free_parts(cells);
     const Links links = link_parts(cells, parts);
-    const Forest forest(parts, links);
+    std::vector<Edge> ends;
+    for (const auto& [trees, cut] : links) ends.push_back(trees);
+    const Forest forest = join_by_cuts(parts, ends);
     const std::vector<bool> must_join = trees_to_join(parts, forest, regions);
-    if (std::find(must_join.begin(), must_join.end(), true) == must_join.end()) return forest.cuts();
-    if (!TreeJoiner(cells, parts, forest).join(must_join)) return forest.cuts();
+    const bool is_even = std::find(must_join.begin(), must_join.end(), true) == must_join.end();
+    if (!is_even && TreeJoiner(cells, parts, forest).join(must_join)) continue;
+    std::vector<Cut> cuts;
+    for (Index e : forest.used()) cuts.push_back(links.at(ends[e]));
+    return cuts;
   }
 }
 

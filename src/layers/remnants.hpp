@@ -16,19 +16,19 @@ struct Parts {
 Parts all_parts(const Sides& sides);
 Parts free_parts(const Cells& cells);
 
-/// One row between two walls is a row as a whole, or none: where the nodes of the two are not opposite each other, pairs
-/// that happen to look like cells would be in the way of the others.
+/// One row between two walls is a row as a whole, or none: where the nodes of the two are not opposite each other,
+/// pairs that happen to look like cells would be in the way of the others.
 void drop_broken_rows(Cells& cells, const Parts& regions);
 
-/// A column of cells between two free triangles that is cut in two from end to end: each edge that it crosses gets a node in
-/// its middle.
+/// A column of cells between two free triangles that is cut in two from end to end: each edge that it crosses gets a
+/// node in its middle.
 struct Cut {
   std::vector<Index> cells;
   Index start = kNone, end = kNone;  ///< sides of the free triangles
 };
 
-/// Makes all parts of a region even, but for one if the region is odd. A column between two parts, cut in two, makes an odd one
-/// even and leaves every row as it is; where there is none, cells are dropped so that parts become one.
+/// Makes all parts of a region even, but for one if the region is odd. A column between two parts, cut in two, makes an
+/// odd one even and leaves every row as it is; where there is none, cells are dropped so that parts become one.
 /// \param regions all_parts(cells.sides())
 /// Cost: in proportion to the triangles, times the logarithm of how many parts are odd.
 std::vector<Cut> make_even(Cells& cells, const Parts& regions);

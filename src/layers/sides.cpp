@@ -2,7 +2,7 @@
 #include "layers/sides.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <span>
 
 namespace qmorph::layers {
 namespace {
@@ -22,10 +22,8 @@ ByLowerNode sort_by_lower_node(const Patch& patch) {
   ByLowerNode list;
   list.first.assign(patch.points.size() + 2, 0);
   const auto for_each_entry = [&](const auto& visit) {
-    for (Index c = 0; c < 3 * patch.triangles.size(); ++c) {
-      const auto& t = patch.triangles[c / 3];
-      visit(t[c % 3], t[(c + 1) % 3], c);
-    }
+    Index c = 0;
+    for (const auto& [i, j, k] : patch.triangles) visit(i, j, c), visit(j, k, c + 1), visit(k, i, c + 2), c += 3;
     for (const auto& [a, b] : patch.constraints) visit(a, b, kNone);
     for (const auto& q : patch.quads)
       for (std::size_t i = 0; i < 4; ++i) visit(q[i], q[(i + 1) % 4], kNone);
@@ -33,18 +31,32 @@ ByLowerNode sort_by_lower_node(const Patch& patch) {
   for_each_entry([&](Index a, Index b, Index) { ++list.first[std::min(a, b) + 2]; });
   for (std::size_t v = 2; v < list.first.size(); ++v) list.first[v] += list.first[v - 1];
   list.entries.resize(list.first.back());
-  for_each_entry([&](Index a, Index b, Index c) { list.entries[list.first[std::min(a, b) + 1]++] = {std::max(a, b), c}; });
+  for_each_entry([&](Index a, Index b, Index c) {
+    list.entries[list.first[std::min(a, b) + 1]++] = {std::max(a, b), c};
+  });
   return list;
+}
+
+bool is_less(const Entry& a, const Entry& b) { return a.upper != b.upper ? a.upper < b.upper : a.side < b.side; }
+
+/// By insertion where they are few, as nearly everywhere.
+void sort(std::span<Entry> entries) {
+  constexpr std::size_t kFew = 16;
+  if (entries.size() > kFew) return std::sort(entries.begin(), entries.end(), is_less);
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    const Entry entry = entries[i];
+    std::size_t k = i;
+    for (; k > 0 && is_less(entry, entries[k - 1]); --k) entries[k] = entries[k - 1];
+    entries[k] = entry;
+  }
 }
 
 }  // namespace
 
 Sides::Sides(const Patch& patch) : patch_(patch), opposite_(3 * patch.triangles.size(), kNone) {
   ByLowerNode list = sort_by_lower_node(patch);
-  const auto at = [&](std::size_t i) { return list.entries.begin() + std::ptrdiff_t(i); };
   for (std::size_t v = 0; v < patch.points.size(); ++v) {
-    std::sort(at(list.first[v]), at(list.first[v + 1]),
-              [](const Entry& a, const Entry& b) { return std::pair(a.upper, a.side) < std::pair(b.upper, b.side); });
+    sort(std::span(list.entries).subspan(list.first[v], list.first[v + 1] - list.first[v]));
     for (std::size_t i = list.first[v]; i < list.first[v + 1];) {
       std::size_t end = i + 1;
       while (end < list.first[v + 1] && list.entries[end].upper == list.entries[i].upper) ++end;

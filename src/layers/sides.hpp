@@ -23,8 +23,8 @@ class Sides {
   /// The corner across.
   Index apex(Index c) const { return from(previous(c)); }
   const Eigen::Vector3d& point(Index node) const { return patch_.points[node]; }
-  /// The same edge's side in the other triangle. kNone for a wall: the boundary, a constraint, a quad that is kept, and any
-  /// edge that more than two triangles have.
+  /// The same edge's side in the other triangle. kNone for a wall: the boundary, a constraint, a quad that is kept, and
+  /// any edge that more than two triangles have.
   Index opposite(Index c) const { return opposite_[c]; }
   bool is_wall(Index c) const { return opposite_[c] == kNone; }
 
@@ -33,7 +33,6 @@ class Sides {
   Index previous_wall(Index c) const;
 
  private:
-
   const Patch& patch_;
   std::vector<Index> opposite_;
 };

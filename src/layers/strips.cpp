@@ -12,7 +12,14 @@
 namespace qmorph::layers {
 namespace {
 
-constexpr double kRight = std::numbers::pi / 2;
+constexpr double kRight = std::numbers::pi / 2, kDegree = kRight / 90;
+/// Cells begin at this length over height: more than in grids of 2 to 1, which are left to the front.
+constexpr double kLeastLong = 2.25;
+/// Cells of a grid that leans, as on a swept wing, are off 90 degrees by this at most, and so long; triangles are thin
+/// there because they lean.
+constexpr double kLeaning = 50 * kDegree, kLeaningLong = 5;
+/// The other way to pair is worse by this, or the grid goes from wall to wall.
+constexpr double kMuchWorse = 20 * kDegree;
 
 /// The shortest side of a free triangle that may be half of a cell much longer than high; kNone of another one.
 Index short_side(const Cells& cells, Index t) {
@@ -25,17 +32,18 @@ Index short_side(const Cells& cells, Index t) {
     if (along[i].squaredNorm() < along[shortest].squaredNorm()) shortest = i;
     if (along[i].squaredNorm() > along[longest].squaredNorm()) longest = i;
   }
-  if (!(along[longest].squaredNorm() >= kStart * along[0].cross(along[1]).norm())) return kNone;
+  constexpr double kThin = kLeastLong + 1 / kLeastLong;  // of a rectangle's half
+  if (!(along[longest].squaredNorm() >= kThin * along[0].cross(along[1]).norm())) return kNone;
   const auto off_perpendicular = [&](Index other) {
     return std::abs(std::atan2(along[shortest].cross(along[other]).norm(), along[shortest].dot(along[other])) - kRight);
   };
-  return std::min(off_perpendicular((shortest + 1) % 3), off_perpendicular((shortest + 2) % 3)) <= kMisfitBeside
+  return std::min(off_perpendicular((shortest + 1) % 3), off_perpendicular((shortest + 2) % 3)) <= kLeaning
              ? 3 * t + shortest
              : kNone;
 }
 
 /// By how much the worst corner is off 90 degrees.
-double skew(const Cell& cell) {
+double skew_of(const Cell& cell) {
   double worst = 0;
   for (double angle : cell.angles) worst = std::max(worst, std::abs(angle - kRight));
   return worst;
@@ -43,8 +51,17 @@ double skew(const Cell& cell) {
 
 /// One of the two ways to make a column of triangles into pairs.
 struct Pairing {
-  std::vector<Cell> cells;  ///< those that are long and not too askew
-  double skew = 0;          ///< their mean
+  std::vector<Cell> cells;   ///< those that are long and not too askew
+  double skew = 0;           ///< the mean of all
+  std::size_t compared = 0;  ///< how many that is
+
+  void add(double off) { skew += (off - skew) / double(++compared); }
+  /// Leaves out cells that lean, unless the column as a whole does, and is no better the other way.
+  void keep_upright(const Pairing& other, bool is_from_wall_to_wall) {
+    const bool is_whole = is_from_wall_to_wall && compared >= kRow && cells.size() == compared;
+    if (is_whole || (other.compared > 0 && skew + kMuchWorse < other.skew)) return;
+    std::erase_if(cells, [](const Cell& cell) { return skew_of(cell) > kMisfit; });
+  }
 
   /// By how much rows bend where they go on beside it, in the mean; nothing if no cell has a neighbour.
   std::optional<double> bend(const Cells& taken) const {
@@ -71,9 +88,10 @@ struct Pairing {
 
 class Strips {
  public:
-  explicit Strips(Cells& cells) : cells_(cells), sides_(cells.sides()), short_(sides_.count() / 3), path_of_(short_.size(), kNone) {
-    for (Index t = 0; t < short_.size(); ++t) short_[t] = short_side(cells_, t);
-    for (Index t = 0; t < short_.size(); ++t)
+  Strips(Cells& cells, const std::vector<Index>& thin)
+      : cells_(cells), sides_(cells.sides()), short_(sides_.count() / 3, kNone), path_of_(short_.size(), kNone) {
+    for (Index t : thin) short_[t] = short_side(cells_, t);
+    for (Index t : thin)
       if (short_[t] != kNone && path_of_[t] == kNone) walk(t);
   }
 
@@ -82,7 +100,7 @@ class Strips {
     std::deque<Index> undecided;
     for (Index p = 0; p < paths_.size(); ++p) {
       const auto& [one, two] = paths_[p].pairings;
-      const bool is_askew = std::abs(one.skew - two.skew) > kClearSkew && !one.cells.empty() && !two.cells.empty();
+      const bool is_askew = std::abs(one.skew - two.skew) > kClearSkew && one.compared > 0 && two.compared > 0;
       if (is_askew)
         take_pairs(p, one.skew < two.skew ? one : two);
       else if (one.cells.size() != two.cells.size())
@@ -108,7 +126,7 @@ class Strips {
   }
 
  private:
-  static constexpr double kClearSkew = 8 * kRight / 90;
+  static constexpr double kClearSkew = 8 * kDegree;
 
   struct Path {
     std::array<Pairing, 2> pairings;
@@ -121,6 +139,9 @@ class Strips {
     const Index other = sides_.opposite(c);
     return short_[other / 3] != kNone && other != short_[other / 3];
   }
+
+  /// Not to a wall, nor to a cell.
+  bool is_open(Index c) const { return !sides_.is_wall(c) && !cells_.is_taken(sides_.opposite(c) / 3); }
 
   Index other_long_side(Index c) const {
     const Index next = Sides::next(c);
@@ -135,23 +156,29 @@ class Strips {
       if (c / 3 == t) break;
     }
     Path path;
-    std::array<double, 2> sum{};
+    // Beyond the ends, pairs are compared, but not made.
+    if (is_open(c) && !is_link(c)) path.pairings[1].add(skew_of(make_cell(sides_, other_long_side(c), c)));
     const Index begin = c / 3;
+    bool is_from_wall_to_wall = false;
+    const bool is_at_wall = sides_.is_wall(c);
     // `c` is the long side of a triangle through which the column enters.
     for (std::size_t i = 0;; ++i) {
       path_of_[c / 3] = Index(paths_.size());
       const Index diagonal = other_long_side(c);
-      if (!is_link(diagonal)) break;
+      is_from_wall_to_wall = is_at_wall && sides_.is_wall(diagonal) && i % 2 == 1;
+      if (!is_open(diagonal)) break;
       const Cell cell = make_cell(sides_, c, diagonal);
-      if (const double off = skew(cell); off <= kMisfit && cell.aspect() >= kNearIsotropic) {
+      const double off = skew_of(cell);
+      path.pairings[i % 2].add(off);
+      if (!is_link(diagonal)) break;
+      if (off <= kLeaning && cell.aspect() >= (off <= kMisfit ? kNearIsotropic : kLeaningLong))
         path.pairings[i % 2].cells.push_back(cell);
-        sum[i % 2] += off;
-      }
       c = sides_.opposite(diagonal);
       if (c / 3 == begin) break;
     }
-    for (std::size_t k = 0; k < 2; ++k)
-      if (!path.pairings[k].cells.empty()) path.pairings[k].skew = sum[k] / double(path.pairings[k].cells.size());
+    auto& [one, two] = path.pairings;
+    one.keep_upright(two, is_from_wall_to_wall);
+    two.keep_upright(one, false);
     paths_.push_back(std::move(path));
   }
 
@@ -182,7 +209,8 @@ class Strips {
       columns.push_back(column_above(sides_, cells_[i]));
       columns.push_back(column_below(sides_, cells_[i]));
     }
-    std::erase_if(columns, [&](const Column& column) { return column.base == kNone || cells_.is_taken(column.base / 3); });
+    std::erase_if(columns,
+                  [&](const Column& column) { return column.base == kNone || cells_.is_taken(column.base / 3); });
     march(cells_, columns);
   }
 
@@ -229,7 +257,7 @@ class Gap {
 
 }  // namespace
 
-void take_strips(Cells& cells) { Strips(cells).take(); }
+void take_strips(Cells& cells, const std::vector<Index>& thin) { Strips(cells, thin).take(); }
 
 void fill_gaps(Cells& cells) {
   const Parts parts = free_parts(cells);

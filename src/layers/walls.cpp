@@ -7,7 +7,8 @@
 namespace qmorph::layers {
 namespace {
 
-/// A column begins with a cell that is longer than high by this between two others, or by this where it goes on with a row.
+/// A column begins with a cell that is longer than high by this between two others, or by this where it goes on with a
+/// row.
 constexpr double kStartBetween = 1.8, kStartBeside = 1;
 /// Heights in the first row do not differ by more, if only the row is a reason to start.
 constexpr double kSameRow = 1.5;
@@ -31,8 +32,10 @@ class FirstRow {
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Index wall = columns_[i].base;
-      const double least = std::min(aspect[number_[sides_.next_wall(wall)]], aspect[number_[sides_.previous_wall(wall)]]);
-      if (aspect[i] >= kStart || (aspect[i] >= kStartBetween && least >= kStart)) start(Index(i), kStartBetween, kMisfitBeside);
+      const double least =
+          std::min(aspect[number_[sides_.next_wall(wall)]], aspect[number_[sides_.previous_wall(wall)]]);
+      if (aspect[i] >= kStart || (aspect[i] >= kStartBetween && least >= kStart))
+        start(Index(i), kStartBetween, kMisfitBeside);
     }
     drop_lone_ones();
     go_on_along_walls();
@@ -85,7 +88,8 @@ class FirstRow {
         if (!column.cells.empty()) continue;
         const auto cell = best_cell(cells_, column);
         if (!cell || !cells_.has_neighbour(*cell)) continue;
-        if (cell->height <= kSameRow * height && height <= kSameRow * cell->height) start(number_[c], kStartBeside, kMisfit);
+        if (cell->height <= kSameRow * height && height <= kSameRow * cell->height)
+          start(number_[c], kStartBeside, kMisfit);
       }
     }
   }

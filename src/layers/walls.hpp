@@ -17,8 +17,8 @@ std::vector<Column> take_columns_on_walls(Cells& cells);
 /// Lets columns grow side by side, a row at a time.
 void march(Cells& cells, std::vector<Column>& columns);
 
-/// Takes what lies between two columns on walls that meet at a node, as spokes go on from the triangles at that node. Rows
-/// end where those of both columns do.
+/// Takes what lies between two columns on walls that meet at a node, as spokes go on from the triangles at that node.
+/// Rows end where those of both columns do.
 void take_fans(Cells& cells, const std::vector<Column>& columns);
 
 }  // namespace qmorph::layers

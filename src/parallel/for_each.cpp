@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "parallel/for_each.hpp"
 
 #include <tbb/info.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One bar for several parts that are worked on side by side.
 
@@ -7,8 +8,8 @@
 
 namespace qmorph::parallel {
 
-/// Calls `report`, one call at a time, with the share that all parts together have done. It never falls. When one part is told to
-/// stop, so are all others; what one call has thrown, the others throw.
+/// Calls `report`, one call at a time, with the share that all parts together have done. It never falls. When one part
+/// is told to stop, so are all others; what one call has thrown, the others throw.
 class SharedProgress {
  public:
   /// `report` may be empty, and is called as long as one of the parts is. `total` is the sum of all weights.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "parity/matching.hpp"
 
 #include <algorithm>
@@ -7,9 +8,9 @@ namespace qmorph::parity {
 namespace {
 
 /// Nodes 0 .. n-1 are the graph's, those above are blossoms: odd cycles of nodes that act as one. Every node has a dual
-/// value y, blossoms none below 0. An edge's slack is its cost less the duals of all nodes that it leaves; it never falls
-/// below 0, and edges of the matching and of blossoms have none. When all nodes are matched, that proves that no matching
-/// costs less.
+/// value y, blossoms none below 0. An edge's slack is its cost less the duals of all nodes that it leaves; it never
+/// falls below 0, and edges of the matching and of blossoms have none. When all nodes are matched, that proves that no
+/// matching costs less.
 class Matching {
  public:
   explicit Matching(const CostTable& costs) : n_(Index(costs.size())), costs_(costs) {
@@ -143,8 +144,8 @@ class Matching {
     }
   }
 
-  /// The edge from an even node to an unlabelled or to another even one that gets tight first, and by how much the duals
-  /// change until then.
+  /// The edge from an even node to an unlabelled or to another even one that gets tight first, and by how much the
+  /// duals change until then.
   std::pair<Joint, Cost> next_tight_edge() {
     Joint best{kNone, kNone};
     Cost least = std::numeric_limits<Cost>::max();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Perfect matching of least cost in a complete graph.
 
@@ -26,7 +27,8 @@ class CostTable {
 /// The partner of each node, so that the sum of the pairs' costs is least. Exact: Edmonds' primal-dual algorithm with
 /// blossoms [J. Edmonds, Maximum matching and a polyhedron with 0,1-vertices, 1965].
 /// Preconditions: an even number of nodes; 0 <= cost <= 2^60.
-/// Cost: n^3 at best, n^4 at worst; 0.1 s for 200 nodes, more than enough where nodes are surfaces with an odd boundary.
+/// Cost: n^3 at best, n^4 at worst; 0.1 s for 200 nodes, more than enough where nodes are surfaces with an odd
+/// boundary.
 std::vector<Index> cheapest_matching(const CostTable& costs);
 
 }  // namespace qmorph::parity

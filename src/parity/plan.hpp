@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Which sides to split so that every region gets an even number of them: a T-join.
 ///
-/// A region can be made of quads alone if its boundary has an even number of sides. To split an edge of the mesh that two
-/// regions share changes the parity of both; an edge of the outside changes that of one. So regions are the nodes of a
-/// graph, shared edges its links, and a set of links that meets exactly the odd regions an odd number of times is what is
-/// wanted; the outside takes any number. The cheapest such set consists of paths that pair the odd regions
+/// A region can be made of quads alone if its boundary has an even number of sides. To split an edge of the mesh that
+/// two regions share changes the parity of both; an edge of the outside changes that of one. So regions are the nodes
+/// of a graph, shared edges its links, and a set of links that meets exactly the odd regions an odd number of times is
+/// what is wanted; the outside takes any number. The cheapest such set consists of paths that pair the odd regions
 /// [J. Edmonds, E. Johnson, Matching, Euler tours and the Chinese postman, 1973].
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "qmorph/check.hpp"
 
 #include <Eigen/Geometry>
@@ -71,7 +72,7 @@ std::size_t bad_corner(const std::vector<Eigen::Vector3d>& points, const std::ar
 
 template <std::size_t N>
 Finding find_bad_corner(const QuadMesh& mesh, std::span<const std::array<Index, N>> elements,
-                            const Eigen::Vector3d& normal) {
+                        const Eigen::Vector3d& normal) {
   for (const auto& element : elements)
     if (const std::size_t k = bad_corner(mesh.points, element, normal); k < N)
       return at(mesh.points[element[k]], "an element has a corner that is not convex");
@@ -229,8 +230,7 @@ std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, Inpu
   if (Finding bad = find_bad_corner<3>(mesh, mesh.triangles, normal)) return bad;
   // Quads that are free to change may be turned over in the input.
   const double before = kept ? twice_area(patch) : area_vector(patch).norm(), after = twice_area(mesh);
-  if (!(std::abs(after - before) <= kAreaTolerance * before))
-    return area_defect(after / before);
+  if (!(std::abs(after - before) <= kAreaTolerance * before)) return area_defect(after / before);
   return {};
 }
 

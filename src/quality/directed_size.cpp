@@ -105,12 +105,12 @@ std::vector<DirectedSize> directed_sizes(const Patch& before, const std::vector<
     places.push_back((before.points[a] + before.points[b] + before.points[c]) / 3);
   }
   const std::vector<Metric> around = look_around(before.points, triangles, chosen);
-  const std::vector<Index> halves = locate(places, points, cut({}, quads));
+  const std::vector<Index> quad_at = locate(places, points, quads);
 
   std::vector<DirectedSize> sizes;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (halves[i] == kNone) continue;
-    const auto& [a, b, c, d] = quads[halves[i] / 2];
+    if (quad_at[i] == kNone) continue;
+    const auto& [a, b, c, d] = quads[quad_at[i]];
     const Metric own = metric_of(before.points, triangles[chosen[i]]);
     Measured one = measure((points[b] + points[c] - points[a] - points[d]) / 2, own, around[i]);
     Measured two = measure((points[c] + points[d] - points[a] - points[b]) / 2, own, around[i]);

@@ -11,10 +11,10 @@
 
 namespace qmorph {
 
-/// At some hundred triangles of `before` or fewer, evenly chosen, so that what is lost where quads are few and large is seen.
-/// By a triangle with sides e, an edge v has the squared length v S^-1 v with S = 2/3 sum e e^T: its own sides are 1 then, and so
-/// are all sides of a rectangle that is cut in halves. Where the triangles around are not stretched in one direction, S is
-/// the mean of theirs, since a thin one among them means nothing.
+/// At some hundred triangles of `before` or fewer, evenly chosen, so that what is lost where quads are few and large is
+/// seen. By a triangle with sides e, an edge v has the squared length v S^-1 v with S = 2/3 sum e e^T: its own sides
+/// are 1 then, and so are all sides of a rectangle that is cut in halves. Where the triangles around are not stretched
+/// in one direction, S is the mean of theirs, since a thin one among them means nothing.
 /// Cost: a search for each quad in a tree of what was chosen, which takes some 50 ns.
 std::vector<DirectedSize> directed_sizes(const Patch& before, const std::vector<Eigen::Vector3d>& points,
                                          std::span<const std::array<Index, 4>> quads);

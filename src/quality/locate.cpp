@@ -11,10 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// By how much of its longest side a triangle reaches beyond itself. The middle of a quad of a curved surface lies beside it.
+/// By how much of its longest side a quad reaches beyond itself. The middle of a quad of a curved surface lies beside
+/// it.
 constexpr double kReach = 0.1;
 /// Ranges of the tree that are this short are looked through one by one.
-constexpr std::size_t kLeaf = 8;
+constexpr std::size_t kLeaf = 2;
 
 /// Places in a balanced k-d tree in an array; the middle of each range is the root of its subtree.
 class Places {
@@ -41,14 +42,16 @@ class Places {
     (high - low).maxCoeff(&axis);
     const std::size_t root = (first + last) / 2;
     const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(first), at(root), at(last), [&](Index a, Index b) { return places[a][axis] < places[b][axis]; });
+    std::nth_element(at(first), at(root), at(last),
+                     [&](Index a, Index b) { return places[a][axis] < places[b][axis]; });
     axis_[root] = int(axis);
     build(places, first, root);
     build(places, root + 1, last);
   }
 
   template <class Visit>
-  void search(std::size_t first, std::size_t last, const Vector3d& low, const Vector3d& high, const Visit& visit) const {
+  void search(std::size_t first, std::size_t last, const Vector3d& low, const Vector3d& high,
+              const Visit& visit) const {
     const auto look = [&](std::size_t i) {
       if ((sorted_[i].array() >= low.array()).all() && (sorted_[i].array() <= high.array()).all())
         visit(order_[i], sorted_[i]);
@@ -90,19 +93,20 @@ double distance(const Vector3d& p, const std::array<Vector3d, 3>& corners, doubl
 }  // namespace
 
 std::vector<Index> locate(const std::vector<Vector3d>& places, const std::vector<Vector3d>& points,
-                          const std::vector<std::array<Index, 3>>& triangles) {
+                          std::span<const std::array<Index, 4>> quads) {
   const Places tree(places);
   std::vector<Index> found(places.size(), kNone);
   std::vector<double> best(places.size(), kReach);
-  for (Index t = 0; t < triangles.size(); ++t) {
-    const std::array<Vector3d, 3> corners = {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
-    Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-    Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  for (Index q = 0; q < quads.size(); ++q) {
+    const Vector3d &a = points[quads[q][0]], &b = points[quads[q][1]], &c = points[quads[q][2]],
+                   &d = points[quads[q][3]];
+    Vector3d low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d)), high = a.cwiseMax(b).cwiseMax(c.cwiseMax(d));
     const double longest = (high - low).maxCoeff();
     low.array() -= kReach * longest;
     high.array() += kReach * longest;
     tree.for_each_in(low, high, [&](Index i, const Vector3d& p) {
-      if (const double outside = distance(p, corners, longest); outside < best[i]) best[i] = outside, found[i] = t;
+      const double outside = std::min(distance(p, {a, b, c}, longest), distance(p, {a, c, d}, longest));
+      if (outside < best[i]) best[i] = outside, found[i] = q;
     });
   }
   return found;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
 #include "qmorph/index.hpp"
@@ -9,9 +10,9 @@
 
 namespace qmorph {
 
-/// For each place the triangle that it lies in, or very near to; kNone if there is none.
-/// Cost: n log m for n triangles and m places.
+/// For each place the quad that it lies in, or very near to, quads being two triangles each; kNone if there is none.
+/// Cost: n log m for n quads and m places.
 std::vector<Index> locate(const std::vector<Eigen::Vector3d>& places, const std::vector<Eigen::Vector3d>& points,
-                          const std::vector<std::array<Index, 3>>& triangles);
+                          std::span<const std::array<Index, 4>> quads);
 
 }  // namespace qmorph

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // One function for each metric of a single element; the sheet of expected values is
 // tests/quality/metric_sheet_test.cpp.
 #include <Eigen/Geometry>

@@ -41,7 +41,8 @@ class Shapes {
   Shapes(const SurfaceElements& mesh, const Eigen::Vector3d& normal);
   /// Elements of which nothing is known: in a plane if they have one, else judged by those around them.
   explicit Shapes(const SurfaceElements& mesh);
-  /// What a surface was made into: in its plane if it has one, else judged by its triangles (and quads), which must outlive this.
+  /// What a surface was made into: in its plane if it has one, else judged by its triangles (and quads), which must
+  /// outlive this.
   Shapes(const Patch& before, const QuadMesh& after);
   ~Shapes();
   Shapes(Shapes&&) noexcept;

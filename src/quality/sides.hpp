@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The sides of elements, those of one edge together.
 
@@ -21,8 +22,8 @@ struct Side {
 std::vector<Side> sorted_sides(std::size_t points, std::span<const std::array<Index, 3>> triangles,
                                std::span<const std::array<Index, 4>> quads);
 
-/// Calls `visit(std::span<const Side>)` for each edge with the sides that lie on it. \pre they follow one another; of any
-/// kind of side with `low` and `high`
+/// Calls `visit(std::span<const Side>)` for each edge with the sides that lie on it. \pre they follow one another; of
+/// any kind of side with `low` and `high`
 template <class AnySide, class Visit>
 void for_each_edge(const std::vector<AnySide>& sides, Visit&& visit) {
   for (std::size_t first = 0; first < sides.size();) {

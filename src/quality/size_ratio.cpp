@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "quality/size_ratio.hpp"
 
 #include <algorithm>
@@ -97,8 +98,9 @@ class EdgeTree {
 
 std::vector<double> size_ratios(const Patch& before, const QuadMesh& after) {
   std::vector<Edge> edges;
-  for_each_edge(sorted_sides(before.points.size(), before.triangles, before.quads),
-                [&](std::span<const Side> sides) { edges.push_back({sides[0].low, sides[0].high}); });
+  for_each_edge(sorted_sides(before.points.size(), before.triangles, before.quads), [&](std::span<const Side> sides) {
+    edges.push_back({sides[0].low, sides[0].high});
+  });
   std::vector<double> ratios;
   if (edges.empty()) return ratios;
   EdgeTree tree(before.points, edges);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// How many edges each node of a mesh has, and which nodes are on the boundary.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Arrays of numbers inside a page: one block of bytes, and a table that says where each array lies in it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/drawing.hpp"
 
 #include <fmt/format.h>
@@ -94,7 +95,8 @@ std::string to_svg(const Drawing& drawing) {
   const double width = drawing.size.x(), height = drawing.size.y();
   std::string text = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.2f}pt\" height=\"{1:.2f}pt\" viewBox=\"0 0 {0:.2f} "
-      "{1:.2f}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n<g transform=\"matrix({2:g} 0 0 -{2:g} 0 {1:.2f})\" fill=\"none\" stroke-linejoin=\"round\" "
+      "{1:.2f}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n<g transform=\"matrix({2:g} 0 0 -{2:g} 0 "
+      "{1:.2f})\" fill=\"none\" stroke-linejoin=\"round\" "
       "stroke-linecap=\"round\">\n",
       width, height, 1.0 / kGrid);
   for (const Shape& shape : drawing.shapes) {

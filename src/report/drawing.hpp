@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Polygons and lines on a page, and the formats that papers take them in.
 
@@ -15,8 +16,8 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// Dark blue by green to pale yellow, for t from 0 to 1; lightness grows evenly, so that it reads the same with any colour
-/// vision and in grey.
+/// Dark blue by green to pale yellow, for t from 0 to 1; lightness grows evenly, so that it reads the same with any
+/// colour vision and in grey.
 Colour on_scale(double t);
 inline constexpr Colour kInvertedColour{208, 28, 139};  ///< an element that is turned over
 inline constexpr Colour kUndefinedColour{150, 150, 150};

@@ -15,14 +15,17 @@ namespace qmorph::report {
 
 /// One region's front. A point (x, y) of the film is `origin + x * axis_u + y * axis_v` in the model.
 ///
-/// `bytes` holds the steps one after another. Numbers are LEB128 (seven bits a byte, lowest first, the high bit says that
-/// more follow); `s` marks signed ones, written as 2n or -2n - 1. "near" is the origin of the step's base edge:
+/// `bytes` holds the steps one after another. Numbers are LEB128 (seven bits a byte, lowest first, the high bit says
+/// that more follow); `s` marks signed ones, written as 2n or -2n - 1. "near" is the origin of the step's base edge:
 ///   u8 StepKind
-///   only of a quad: u8 SideEdge left + 8 * SideEdge right + 64 if a side edge met the front, number of swaps for the top edge
+///   only of a quad: u8 SideEdge left + 8 * SideEdge right + 64 if a side edge met the front, number of swaps for the
+///   top edge
 ///   the base edge: its origin, s target - origin
-///   count, then for each node that moved or is new: s node - the one before (near, for the first), s dx, s dy from where
+///   count, then for each node that moved or is new: s node - the one before (near, for the first), s dx, s dy from
+///   where
 ///     it was last; from near, of a node never seen
-///   count, then for each face that changed: s face - the one before (0 for the first), its number of corners (0: gone), for
+///   count, then for each face that changed: s face - the one before (0 for the first), its number of corners (0:
+///   gone), for
 ///     each corner s node - near
 ///   count, then for each front edge that has a new level: s origin - near, s target - near, level
 struct Film {

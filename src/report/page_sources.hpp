@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The files of src/report/page, joined by join.cmake when the project is built.
 

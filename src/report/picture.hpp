@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Meshes as drawings.
 
@@ -18,9 +19,9 @@ enum class PictureColour { scaled_jacobian, eta, thesis_metric, size, none };
 /// sj, eta, thesis, size or none.
 std::optional<PictureColour> find_picture_colour(std::string_view name);
 
-/// Draws a scene, its longer side 400 points: faces by colour, their sides, boundary and curves, nodes with other than four
-/// edges (three: orange triangle, five: blue pentagon, others: black disc). A scene in space is seen from the side and
-/// above, without marks. Sizes are coloured by their logarithm between the smallest and the largest.
+/// Draws a scene, its longer side 400 points: faces by colour, their sides, boundary and curves, nodes with other than
+/// four edges (three: orange triangle, five: blue pentagon, others: black disc). A scene in space is seen from the side
+/// and above, without marks. Sizes are coloured by their logarithm between the smallest and the largest.
 Drawing draw(const Scene& scene, PictureColour colour);
 
 /// The scene with its surfaces as they were after a stage. \pre the recorder has kept the meshes of the stages.

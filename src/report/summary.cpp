@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/summary.hpp"
 
 #include <fmt/format.h>
@@ -69,7 +70,8 @@ std::string surface_line(const SurfaceReport& surface) {
       break;
   }
   std::string after = elements(surface.triangles_out, surface.quads_out);
-  if (surface.conversion.layer_quads > 0) after += fmt::format(", {} of them in layers", surface.conversion.layer_quads);
+  if (surface.conversion.layer_quads > 0)
+    after += fmt::format(", {} of them in layers", surface.conversion.layer_quads);
   return line + fmt::format(": {} -> {}; {}{}", before, after, figures(surface.quality, surface.quads_out),
                             sizes(surface.conversion.sizes));
 }
@@ -95,8 +97,8 @@ std::string total_line(const ModelReport& model, const std::string& output, doub
     quads_out += surface.quads_out;
   }
   return fmt::format("total: {} -> {}; {}{}{}; {:.2f} s; {}", elements(triangles_in, quads_in),
-                     elements(triangles_out, quads_out), figures(model.total, quads_out), distance(model.fidelity), poor(model),
-                     seconds, output);
+                     elements(triangles_out, quads_out), figures(model.total, quads_out), distance(model.fidelity),
+                     poor(model), seconds, output);
 }
 
 std::string even_line(const EvenReport& even) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What came out, in lines for people.
 
@@ -7,8 +8,8 @@
 
 namespace qmorph::report {
 
-/// `surface 3 "steel": 4380 triangles -> 2190 quads; scaled Jacobian min 0.478 mean 0.912; irregular 3.9 %; size 1.01 along
-/// 1.03 across`: lengths over those of the triangles, medians. With layers: `2190 quads, 340 of them in layers`.
+/// `surface 3 "steel": 4380 triangles -> 2190 quads; scaled Jacobian min 0.478 mean 0.912; irregular 3.9 %; size 1.01
+/// along 1.03 across`: lengths over those of the triangles, medians. With layers: `2190 quads, 340 of them in layers`.
 std::string surface_line(const SurfaceReport& surface);
 
 /// Of a mesh that was measured: `4380 quads on 3 surfaces; scaled Jacobian min 0.478 mean 0.912; irregular 3.9 %`

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Constrained Laplacian smoothing [thesis 2.2.6; after Canann, Tristano, Staten].
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "smoothing/node_energy.hpp"
 
 #include <algorithm>
@@ -12,11 +13,12 @@ namespace {
 /// mu is at least 1 / sine: a corner whose mu is larger than this may be straight.
 constexpr double kMostMu = 0.5 / kStraightSine;
 
-/// What the corners of four elements add to the energy, and half of what they add to its derivatives with respect to the node.
+/// What the corners of four elements add to the energy, and half of what they add to its derivatives with respect to
+/// the node.
 ///
 /// With mu = n / (2 J), n = |a|^2 + |b|^2 of the corner's edges and J = a x b linear in the node, the gradient of mu is
-/// g = d / J - f, and half the Hessian of mu^2 is g g^T - f g^T - g f^T + k m I, where d is half the gradient of n, m half the
-/// diagonal of its second derivative, k = mu / J and f = k dJ.
+/// g = d / J - f, and half the Hessian of mu^2 is g g^T - f g^T - g f^T + k m I, where d is half the gradient of n, m
+/// half the diagonal of its second derivative, k = mu / J and f = k dJ.
 struct Derivatives {
   FourLanes value{}, x{}, y{}, xx{}, yy{}, xy{};
   FourLanes least{1, 1, 1, 1};  ///< of the areas J
@@ -89,8 +91,8 @@ QMORPH_WIDE void add_value(Energy& energy, const FourElements& elements, std::si
 
 }  // namespace
 
-[[gnu::always_inline]] inline void Star::put(std::size_t place, const Vec2& q, const Vec2& after_q, const Vec2& before_r,
-                                             const Vec2& r, Index node, Index opposite) {
+[[gnu::always_inline]] inline void Star::put(std::size_t place, const Vec2& q, const Vec2& after_q,
+                                             const Vec2& before_r, const Vec2& r, Index node, Index opposite) {
   if (place == 4 * fours_.size()) fours_.emplace_back();
   FourElements& four = fours_[place / 4];
   const std::size_t lane = place % 4;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The shape energy of the elements around a node, as a function of where the node is.
 ///
@@ -22,8 +23,8 @@ struct Energy {
   bool is_convex() const { return xx > 0 && xx * yy - xy * xy > 0; }
 };
 
-/// Four of the elements around a node v, one in each lane. An element runs v, q, after_q, r or, if it is a triangle, v, q, r: then
-/// after_q is r and before_r is q.
+/// Four of the elements around a node v, one in each lane. An element runs v, q, after_q, r or, if it is a triangle, v,
+/// q, r: then after_q is r and before_r is q.
 struct FourElements {
   FourLanes qx, qy, rx, ry, after_qx, after_qy, before_rx, before_ry;
   std::array<Index, 4> node;      ///< at q
@@ -36,8 +37,8 @@ struct StarElement {
   Index node = kNone, opposite = kNone;  ///< at q and before_r
 };
 
-/// The elements around a node, looked at once, so that the energy at several places costs no walk through the mesh. Of an
-/// element that runs v, q, ..., r the corners at v, q and r depend on v.
+/// The elements around a node, looked at once, so that the energy at several places costs no walk through the mesh. Of
+/// an element that runs v, q, ..., r the corners at v, q and r depend on v.
 class Star {
  public:
   void look_around(const kernel::Mesh& mesh, Index v);
@@ -47,8 +48,8 @@ class Star {
   Energy energy_with_derivatives(const Vec2& p) const;
   /// The same, value only.
   Energy energy(const Vec2& p) const;
-  /// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a corner, which is positive
-  /// everywhere and tends to J as delta goes to zero. [Escobar03] `delta` is an area.
+  /// Energy of corners that may be turned over: mu with (J + sqrt(J^2 + 4 delta^2)) / 2 for the area J of a corner,
+  /// which is positive everywhere and tends to J as delta goes to zero. [Escobar03] `delta` is an area.
   Energy regularised_with_derivatives(const Vec2& p, double delta) const;
   /// The same, value only.
   double regularised(const Vec2& p, double delta) const;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Optimisation-based smoothing: steepest descent on the worst element [thesis 2.2.6; after Canann, Tristano, Staten].
 

@@ -21,8 +21,8 @@ struct Terms {
   FourLanes value, x, y, xx, yy, xy;
 };
 
-/// mu^2 of the corners with edges a, b. (nx, ny) and (jx, jy) are the gradients of |a|^2 + |b|^2 and of a x b with respect to
-/// the node, `n2` the diagonal of the (constant) second derivative of the first.
+/// mu^2 of the corners with edges a, b. (nx, ny) and (jx, jy) are the gradients of |a|^2 + |b|^2 and of a x b with
+/// respect to the node, `n2` the diagonal of the (constant) second derivative of the first.
 [[gnu::always_inline]] inline void find_terms(Terms& t, double delta, const FourLanes& ax, const FourLanes& ay,
                                               const FourLanes& bx, const FourLanes& by, const FourLanes& nx,
                                               const FourLanes& ny, double n2, const FourLanes& jx,
@@ -52,7 +52,8 @@ struct Terms {
 }
 
 /// Element after element, corner after corner, so that the sum has the same rounding on every processor.
-QMORPH_WIDE void add_derivatives(Energy& energy, const FourElements& e, std::size_t count, const Vec2& p, double delta) {
+QMORPH_WIDE void add_derivatives(Energy& energy, const FourElements& e, std::size_t count, const Vec2& p,
+                                 double delta) {
   const FourLanes qx = e.qx - p.x(), qy = e.qy - p.y(), rx = e.rx - p.x(), ry = e.ry - p.y();
   const FourLanes sx = e.after_qx - e.qx, sy = e.after_qy - e.qy, tx = e.before_rx - e.rx, ty = e.before_ry - e.ry;
   Terms corners[3];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "smoothing/smooth.hpp"
 
 #include <algorithm>
@@ -100,8 +101,8 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   constexpr int kHalvings = 4;
   double share = kOverRelaxation;
   if (energy.is_convex()) {
-    // The energy is nearly self-concordant [Nesterov94]: where Newton's decrement is small, it falls along the whole step, and
-    // nothing turns over. Not proved: of 17 million such steps on random domains none failed.
+    // The energy is nearly self-concordant [Nesterov94]: where Newton's decrement is small, it falls along the whole
+    // step, and nothing turns over. Not proved: of 17 million such steps on random domains none failed.
     constexpr double kSureDecrement = 0.1, kNegligible = 1e-12;
     const double decrement = -energy.gradient.dot(step);
     if (decrement < kNegligible * energy.value) return 0;
@@ -122,9 +123,9 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
 
 /// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
 ///
-/// The nodes are cut into blocks along a Z-curve. Those whose neighbours are all in the same block, or never move, are moved block by
-/// block, side by side; then the others, one after another. Blocks do not depend on the number of threads, and so
-/// nothing does.
+/// The nodes are cut into blocks along a Z-curve. Those whose neighbours are all in the same block, or never move, are
+/// moved block by block, side by side; then the others, one after another. Blocks do not depend on the number of
+/// threads, and so nothing does.
 class Passes {
  public:
   Passes(kernel::Mesh& mesh, const SmoothingOptions& options)
@@ -134,7 +135,8 @@ class Passes {
     cut_into_blocks(nodes);
     constexpr int kFewest = 2;  // what follows counts on them
     for (int pass = 0; pass < options_.iterations && (pass < kFewest || !budget.is_spent()); ++pass)
-      if (for_blocks([&](const std::vector<Index>& block, std::size_t& work) { return relax(block, work); }) == 0) break;
+      if (for_blocks([&](const std::vector<Index>& block, std::size_t& work) { return relax(block, work); }) == 0)
+        break;
     wake_at_poor_faces();
     for (int pass = 0; pass < kRepairPasses; ++pass) {
       const double most_each = double(budget.left()) / double(kRepairPasses - pass) / double(nodes.size());
@@ -177,7 +179,8 @@ class Passes {
     return is_between;
   }
 
-  /// Calls visit(block, work), which returns whether a node moved, for all blocks side by side, then for the nodes between.
+  /// Calls visit(block, work), which returns whether a node moved, for all blocks side by side, then for the nodes
+  /// between.
   /// \return how many said so
   template <class Visit>
   int for_blocks(const Visit& visit) {

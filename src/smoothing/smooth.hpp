@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Smoothing and repair: nodes move, the topology stays.
 
@@ -9,15 +10,14 @@
 
 namespace qmorph::smoothing {
 
-/// Smooths every node that is free. No element that is valid becomes invalid; elements that are not are untangled
-/// where moving nodes can do it. Later passes visit only nodes near one that moved. Cost: linear, and what the budget allows for
-/// nodes of poor elements, which are optimised one by one, the worst first where it does not last for all.
+/// Smooths every node that is free. No element that is valid becomes invalid; elements that are not are untangled where
+/// moving nodes can do it. Later passes visit only nodes near one that moved. Cost: linear, and what the budget allows
+/// for nodes of poor elements, which are optimised one by one, the worst first where it does not last for all.
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget = {});
 
 /// The same for a few nodes and `rings` rings of neighbours around them. Returns false if an element near them is
 /// not valid in the end; what has been moved by then has to be rolled back by the caller.
-bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes,
-                 int rings);
+bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings);
 
 /// One Newton step of the shape energy at v, shortened until the energy falls. Returns how far v moved,
 /// relative to one of its edges; 0 if v is fixed.

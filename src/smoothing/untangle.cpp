@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "smoothing/untangle.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ std::vector<CornerArea> corner_areas(const kernel::Mesh& mesh, Index v) {
       const Vec2 q = mesh.point(mesh.target(h)) - centre, r = mesh.point(mesh.origin(to_v)) - centre;
       const Vec2 after_q = mesh.point(mesh.target(mesh.next(h))) - centre;
       const Vec2 before_r = mesh.point(mesh.origin(mesh.prev(to_v))) - centre;
-      add(q, r);         // corner at v: x, q, r counter-clockwise
+      add(q, r);  // corner at v: x, q, r counter-clockwise
       if (mesh.degree(mesh.face(h)) == 4) {
         add(q, after_q);   // corner at q: q, after_q, x
         add(before_r, r);  // corner at r: r, x, before_r

@@ -89,7 +89,8 @@ Foot Background::walk(const Vector3d& p, Index hint) const {
       const Foot foot = foot_on(other, p);
       if (foot.distance2 < best.distance2) best = foot;
     };
-    // What is nearer to p than its foot is nearer to the foot than twice that distance: across sides that are, and at corners.
+    // What is nearer to p than its foot is nearer to the foot than twice that distance: across sides that are, and at
+    // corners.
     const double reach2 = 4 * here.distance2;
     for (int i = 0; i < 3; ++i)
       if (height2(here, (i + 2) % 3) <= reach2)

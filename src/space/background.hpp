@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The triangles of an input surface as what everything in space is measured by: they say where the surface is and which
-/// way is up. They are never edited.
+/// The triangles of an input surface as what everything in space is measured by: they say where the surface is and
+/// which way is up. They are never edited.
 
 #include <Eigen/Core>
 #include <array>
@@ -18,16 +18,16 @@ struct Foot : OnTriangle {
   Index triangle = kNone;
 };
 
-/// Adjacency, normals and closest points of a surface's triangles, whose sides are numbered 3 * triangle + i, from corner i to
-/// the next. Arrays that it is made of must outlive it. Cost: linear in the number of triangles.
+/// Adjacency, normals and closest points of a surface's triangles, whose sides are numbered 3 * triangle + i, from
+/// corner i to the next. Arrays that it is made of must outlive it. Cost: linear in the number of triangles.
 class Background {
  public:
   using Triangle = std::array<Index, 3>;
   using Edge = std::array<Index, 2>;
 
-  /// `barriers` are edges (rows of `points`) that part the surface, as constraints and creases do: no walk crosses them, and
-  /// normals of the two sides are not mixed. So do edges with one triangle, with three or more, and those whose
-  /// triangles are not oriented alike.
+  /// `barriers` are edges (rows of `points`) that part the surface, as constraints and creases do: no walk crosses
+  /// them, and normals of the two sides are not mixed. So do edges with one triangle, with three or more, and those
+  /// whose triangles are not oriented alike.
   Background(std::span<const Eigen::Vector3d> points, std::span<const Triangle> triangles,
              std::span<const Edge> barriers = {});
 
@@ -48,7 +48,8 @@ class Background {
 
   /// Unit normal of a triangle; zero if it has no area.
   const Eigen::Vector3d& normal(Index t) const { return normals_[t]; }
-  /// Unit normal of a triangle weighed 3 and its neighbours weighed 1: one bad triangle does not decide which way is up.
+  /// Unit normal of a triangle weighed 3 and its neighbours weighed 1: one bad triangle does not decide which way is
+  /// up.
   Eigen::Vector3d normal_near(Index t) const;
   /// Unit normal of a node, by the areas of the triangles around it on this side of the barriers.
   const Eigen::Vector3d& corner_normal(Index t, int i) const { return fan_normals_[fans_[3 * t + i]]; }
@@ -58,21 +59,21 @@ class Background {
   /// The triangles around the corners of t all have nearly the normal of their corner: nobody has to look closer.
   bool is_smooth(Index t) const { return is_smooth_[t]; }
 
-  /// Triangles around a node that are joined across edges that are no barriers make a fan: a node has several where barriers
-  /// or touching parts of the boundary meet. Number of the fan of corner i of t, from 0 to fans() - 1.
+  /// Triangles around a node that are joined across edges that are no barriers make a fan: a node has several where
+  /// barriers or touching parts of the boundary meet. Number of the fan of corner i of t, from 0 to fans() - 1.
   Index fan(Index t, int i) const { return fans_[3 * t + i]; }
   Index fans() const { return Index(fan_normals_.size()); }
 
-  /// Calls visit(side) for the side that starts at this corner and those of the other triangles of its fan, at most so many each
-  /// way round.
+  /// Calls visit(side) for the side that starts at this corner and those of the other triangles of its fan, at most so
+  /// many each way round.
   template <class Visit>
   void for_fan(Index side, Index most, const Visit& visit) const;
 
   /// The point of triangle t that is closest to p.
   Foot foot_on(Index t, const Eigen::Vector3d& p) const;
-  /// The closest point that a walk downhill from `hint` finds: each step goes to that triangle around which is nearest to p.
-  /// It crosses no barrier and takes a bounded number of steps. Near the surface that is the closest point of all on
-  /// this side of the barriers, but where the surface comes back to itself nearer than it is curved.
+  /// The closest point that a walk downhill from `hint` finds: each step goes to that triangle around which is nearest
+  /// to p. It crosses no barrier and takes a bounded number of steps. Near the surface that is the closest point of all
+  /// on this side of the barriers, but where the surface comes back to itself nearer than it is curved.
   Foot walk(const Eigen::Vector3d& p, Index hint) const;
 
  private:

@@ -21,9 +21,9 @@ struct CornerNormals {
 };
 
 /// Sines of the corners in space. Negative where the corner is turned over: the cross product of its sides points away
-/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by the
-/// first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle.
-/// 0 for a side without length, -1 where a coordinate is NaN.
+/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by
+/// the first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle. 0 for a
+/// side without length, -1 where a coordinate is NaN.
 template <std::size_t N>
 std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& normals) {
   std::array<double, N> sines;
@@ -36,6 +36,19 @@ std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& 
     sines[i] = std::isnan(lengths) ? -1 : up == 0 ? 0 : sine;
   }
   return sines;
+}
+
+/// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the
+/// element: near 0 it is chance which way a corner turns.
+template <std::size_t N>
+double smallest_rise(const Corners<N>& p, const CornerNormals<N>& normals) {
+  double least = 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Eigen::Vector3d cross = (p[(i + 1) % N] - p[i]).cross(p[(i + N - 1) % N] - p[i]);
+    const double up = std::max(cross.dot(normals.at[i]), cross.dot(normals.whole.normalized())), area = cross.norm();
+    least = std::min(least, area > 0 ? up / area : 0);
+  }
+  return least;
 }
 
 /// The smallest of them.

@@ -10,8 +10,8 @@
 
 namespace qmorph::space {
 
-/// Triangles and quads with their neighbours. Triangles are numbered first; side 4 * element + i runs from corner i to the
-/// next. Arrays that it is made of must outlive it. Cost: linear.
+/// Triangles and quads with their neighbours. Triangles are numbered first; side 4 * element + i runs from corner i to
+/// the next. Arrays that it is made of must outlive it. Cost: linear.
 class ElementSides {
  public:
   using Edge = std::array<Index, 2>;
@@ -35,7 +35,8 @@ class ElementSides {
   Index target(Index side) const { return node(next(side)); }
   Index opposite(Index side) const { return opposite_[side]; }
 
-  /// Calls visit(side) for this side and all others that start at the same node in elements joined to its own around there.
+  /// Calls visit(side) for this side and all others that start at the same node in elements joined to its own around
+  /// there.
   template <class Visit>
   void for_fan(Index side, const Visit& visit) const {
     visit(side);

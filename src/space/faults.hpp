@@ -10,18 +10,18 @@
 
 namespace qmorph::space {
 
-/// The surface turns by more than a right angle against its mean normal within the element: there the input is folded, or has
-/// triangles that are bad themselves, and an element may have no way to be good.
+/// The surface turns by more than a right angle against its mean normal within the element: there the input is folded,
+/// or has triangles that are bad themselves, and an element may have no way to be good.
 template <std::size_t N>
 bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint);
 
-/// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned over (not
-/// those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface, handles or
-/// holes that come or go. Cost: linear.
+/// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned
+/// over (not those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface,
+/// handles or holes that come or go. Cost: linear.
 std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept);
 
-/// A quad of a curved patch that is turned over among its neighbours or has a corner of 180 degrees or more, or kNone; `corner`
-/// gets the node.
+/// A quad of a curved patch that is turned over among its neighbours or has a corner of 180 degrees or more, or kNone;
+/// `corner` gets the node.
 Index find_bad_quad(const Patch& patch, Index& corner);
 
 }  // namespace qmorph::space

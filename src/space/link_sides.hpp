@@ -10,9 +10,10 @@
 
 namespace qmorph::space {
 
-/// For each side of elements the same edge's side in the other element. kNone on the boundary and where the surface parts: at
-/// `barriers`, at edges with three elements or more, and between elements that are not oriented alike.
-/// `ends(side)` gives the nodes that a side runs from and to; the first is kNone if there is no such side. Linear for meshes.
+/// For each side of elements the same edge's side in the other element. kNone on the boundary and where the surface
+/// parts: at `barriers`, at edges with three elements or more, and between elements that are not oriented alike.
+/// `ends(side)` gives the nodes that a side runs from and to; the first is kNone if there is no such side. Linear for
+/// meshes.
 template <class Ends>
 std::vector<Index> link_sides(std::size_t nodes, Index sides, const Ends& ends,
                               std::span<const std::array<Index, 2>> barriers) {

@@ -9,13 +9,14 @@
 
 namespace qmorph::space {
 
-/// Normals of a surface of which there is nothing but its own triangles and quads: an element is judged by those around it, so
-/// that one that is turned over among others is seen, whatever way it turns itself.
+/// Normals of a surface of which there is nothing but its own triangles and quads: an element is judged by those around
+/// it, so that one that is turned over among others is seen, whatever way it turns itself.
 class MeshNormals {
  public:
   MeshNormals(std::span<const Eigen::Vector3d> points, const ElementSides& sides);
 
-  /// At its corners by the elements that meet there, as a whole by its neighbours and, with the weight of two, by itself.
+  /// At its corners by the elements that meet there, as a whole by its neighbours and, with the weight of two, by
+  /// itself.
   template <std::size_t N>
   CornerNormals<N> of(Index element) const;
 

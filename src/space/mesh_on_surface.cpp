@@ -109,7 +109,8 @@ Vector3d MeshOnSurface::centre(Index f) const {
   return sum / double(degree);
 }
 
-/// Nodes on creases have triangles on several sides: faces there are found from a node that is elsewhere, or from a neighbour.
+/// Nodes on creases have triangles on several sides: faces there are found from a node that is elsewhere, or from a
+/// neighbour.
 void MeshOnSurface::find_places() {
   std::vector<Index> queue;
   std::vector<char> found(faces(), 0);
@@ -168,6 +169,12 @@ double MeshOnSurface::exact_sine(Index f) const {
   const Face& face = mesh_.faces[f];
   const auto sine = [&](const auto& p) { return scaled_jacobian(p, whole_normals_.of(p, mesh_.near[f])); };
   return chart::degree(face) == 4 ? sine(corners<4>(face)) : sine(corners<3>(face));
+}
+
+double MeshOnSurface::exact_rise(Index f) const {
+  const Face& face = mesh_.faces[f];
+  const auto rise = [&](const auto& p) { return smallest_rise(p, whole_normals_.of(p, mesh_.near[f])); };
+  return chart::degree(face) == 4 ? rise(corners<4>(face)) : rise(corners<3>(face));
 }
 
 double MeshOnSurface::smallest_sine_around(Index v) const {

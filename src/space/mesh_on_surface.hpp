@@ -29,9 +29,9 @@ class MeshOnSurface {
   using Mesh = chart::SurfaceMesh;
   using Face = chart::Face;
 
-  /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their nodes stay.
-  /// Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases: who judges a result later
-  /// does not know of them.
+  /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their
+  /// nodes stay. Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases:
+  /// who judges a result later does not know of them.
   MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
                 const Background& whole);
 
@@ -65,14 +65,16 @@ class MeshOnSurface {
 
   /// Smallest corner sine of a face, signed by the surface's normals at its nodes: nearly exact_sine(), and cheap.
   double smallest_sine(Index face) const;
-  /// All corners have larger sines than this, and turn so clearly the way the surface does at the nodes that looking closer is
-  /// not needed.
+  /// All corners have larger sines than this, and turn so clearly the way the surface does at the nodes that looking
+  /// closer is not needed.
   bool is_clearly_above(Index face, double sine) const;
   /// Of the faces around a node.
   double smallest_sine_around(Index v) const;
   /// The one that counts, by the surface's normals near the corners.
   double exact_sine(Index face) const;
   double exact_sine_around(Index v) const;
+  /// smallest_rise() by the same normals.
+  double exact_rise(Index face) const;
 
   /// False if an element around is turned so far against the tangent plane that it cannot be laid there.
   bool unfold(Index v, UnfoldedStar& star) const;

@@ -8,8 +8,8 @@
 
 namespace qmorph::space {
 
-/// A patch as background: its triangles by their rows, then the halves of its quads, cut along the diagonal across which they are
-/// less bent. Constraints are barriers. The patch must outlive it; cannot be copied or moved.
+/// A patch as background: its triangles by their rows, then the halves of its quads, cut along the diagonal across
+/// which they are less bent. Constraints are barriers. The patch must outlive it; cannot be copied or moved.
 class Reference {
  public:
   explicit Reference(const Patch& patch)
@@ -18,8 +18,8 @@ class Reference {
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
 
-  /// The triangles of a patch, and the halves of its quads, two and two: the side that they share is the last of the first and the
-  /// first of the second. Empty without quads.
+  /// The triangles of a patch, and the halves of its quads, two and two: the side that they share is the last of the
+  /// first and the first of the second. Empty without quads.
   static std::vector<Background::Triangle> with_halves(const Patch& patch);
 
  private:

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Smallest sine around a node, or less where edges at a corner differ in length by more than about twenty times: the sine alone
-/// would let a node fall onto its neighbour.
+/// Smallest sine around a node, or less where edges at a corner differ in length by more than about twenty times: the
+/// sine alone would let a node fall onto its neighbour.
 double guarded_sine_around(const MeshOnSurface& mesh, Index v, bool exact) {
   constexpr double kLengthGuard = 20;
   double least = exact ? mesh.exact_sine_around(v) : mesh.smallest_sine_around(v);

@@ -20,14 +20,14 @@ struct PoorFace {
 /// Faces whose smallest corner sine is below `sine`, worst first; with 0 those that are not valid.
 std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine);
 
-/// Moves the nodes of faces below `options.target_quality` one at a time to where the smallest sine around is largest, by compass
-/// search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first. Returns the nodes
-/// that moved.
+/// Moves the nodes of faces below `options.target_quality` one at a time to where the smallest sine around is largest,
+/// by compass search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first.
+/// Returns the nodes that moved.
 std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options);
 
-/// Faces that are not valid are taken out with a few rings around, laid flat with the surface under them, and untangled there, by
-/// moving nodes first, then by changing what is joined to what. What becomes no better stays as it is. `creases` as
-/// MeshOnSurface has them; `surface` is the region's, parted along them.
+/// Faces that are not valid are taken out with a few rings around, laid flat with the surface under them, and untangled
+/// there, by moving nodes first, then by changing what is joined to what. What becomes no better stays as it is.
+/// `creases` as MeshOnSurface has them; `surface` is the region's, parted along them.
 chart::SurfaceMesh mend_in_charts(chart::SurfaceMesh mesh, const std::vector<chart::Edge>& creases,
                                   const chart::CurvedRegion& region, const Background& surface,
                                   const SmoothingOptions& options);

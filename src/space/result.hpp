@@ -11,7 +11,8 @@
 
 namespace qmorph::space {
 
-/// What a surface was made into, and where on the surface its elements and nodes are. Both must outlive this. Cost: linear.
+/// What a surface was made into, and where on the surface its elements and nodes are. Both must outlive this. Cost:
+/// linear.
 class Result {
  public:
   Result(const Patch& before, const QuadMesh& after);
@@ -22,13 +23,14 @@ class Result {
   const SurfaceNormals& normals() const { return normals_; }
   /// Rows of the patch's triangles come first in the surface.
   Index triangle(Index element) const { return triangle_[element]; }
-  /// Of a node that lies inside: the closest point of the surface. At the boundary and at constraints there may be several, and
-  /// `triangle` is kNone.
+  /// Of a node that lies inside: the closest point of the surface. At the boundary and at constraints there may be
+  /// several, and `triangle` is kNone.
   const Foot& foot(Index node) const { return foot_[node]; }
   /// The closest point for a corner of an element.
   Foot foot(Index element, Index node) const;
 
-  /// By the surface's normals at the nodes if those leave no doubt, else by looking closer; signed as corner_sines() does.
+  /// By the surface's normals at the nodes if those leave no doubt, else by looking closer; signed as corner_sines()
+  /// does.
   template <std::size_t N>
   std::array<double, N> sines(Index element, const Corners<N>& p, const std::array<Index, N>& nodes) const;
 

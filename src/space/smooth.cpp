@@ -75,8 +75,8 @@ class Smoother {
     energies_.set(star_.elements);
     const Energy energy = energies_.energy_with_derivatives(Vec2::Zero());
     if (!energy.finite) return 0;
-    // Of 3 corners of each element the energy is the sum of mu^2, each at least 1 and at least the sine^-2 of its corner: if the
-    // sum leaves so much to one alone, all corners are good.
+    // Of 3 corners of each element the energy is the sum of mu^2, each at least 1 and at least the sine^-2 of its
+    // corner: if the sum leaves so much to one alone, all corners are good.
     const double sure = double(3 * star_.elements.size() - 1) + std::pow(options_.good_quality, -2);
     return descend(v, star_, energy, kOverRelaxation, sure, [&](const Vec2& p) { return energies_.energy(p); });
   }

@@ -25,7 +25,8 @@ Vector3d centre_of(const Corners<N>& p) {
   return sum / double(N);
 }
 
-/// A side of the surface where it parts. Whichever way it runs: an element that is turned over is to be found on its own side.
+/// A side of the surface where it parts. Whichever way it runs: an element that is turned over is to be found on its
+/// own side.
 struct OpenSide {
   Index low, high, triangle;
 };

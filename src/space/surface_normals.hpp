@@ -12,8 +12,8 @@
 
 namespace qmorph::space {
 
-/// The normals of a surface by which elements on it are judged: at a corner that of the triangle closest to the point a quarter of the
-/// way to the element's centre, so that a corner on a crease is judged by its own side.
+/// The normals of a surface by which elements on it are judged: at a corner that of the triangle closest to the point a
+/// quarter of the way to the element's centre, so that a corner on a crease is judged by its own side.
 class SurfaceNormals {
  public:
   /// The surface must outlive this. Cost: linear where it is smooth, else n log n.
@@ -32,8 +32,8 @@ class SurfaceNormals {
   std::optional<TriangleTree> tree_;  ///< only for a surface that is not smooth
 };
 
-/// Elements on a surface, of which nothing is known but which nodes come from the input: `source` is the row of the surface's points
-/// of each node, or kNone. Empty: none does.
+/// Elements on a surface, of which nothing is known but which nodes come from the input: `source` is the row of the
+/// surface's points of each node, or kNone. Empty: none does.
 struct ElementsOnSurface {
   const Background& surface;
   std::span<const Eigen::Vector3d> points;
@@ -42,9 +42,9 @@ struct ElementsOnSurface {
   std::span<const Index> source;
 };
 
-/// The triangle of the surface that is closest to each element's centre, on the right side of barriers: from a side of the element that
-/// is one of the surface, or else by a walk from a neighbour. `sides` are the elements', with the same barriers. Elements that
-/// are joined to no such side are looked for everywhere.
+/// The triangle of the surface that is closest to each element's centre, on the right side of barriers: from a side of
+/// the element that is one of the surface, or else by a walk from a neighbour. `sides` are the elements', with the same
+/// barriers. Elements that are joined to no such side are looked for everywhere.
 /// Cost: linear, but for those: n log n.
 std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides);
 

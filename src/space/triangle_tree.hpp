@@ -16,8 +16,9 @@ class TriangleTree {
  public:
   TriangleTree(std::span<const Eigen::Vector3d> points, std::span<const Background::Triangle> triangles);
 
-  /// The closest point of all triangles; of several equally near triangles one, always the same. No triangle: `triangle` is kNone.
-  /// Only points nearer than `within` are looked for, on triangles t with label[t] == only; without labels on all.
+  /// The closest point of all triangles; of several equally near triangles one, always the same. No triangle:
+  /// `triangle` is kNone. Only points nearer than `within` are looked for, on triangles t with label[t] == only;
+  /// without labels on all.
   Foot closest(const Eigen::Vector3d& p, double within = std::numeric_limits<double>::infinity(),
                std::span<const Index> label = {}, Index only = 0) const;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Edits of a quad mesh that several stages use; each is made of the kernel's.
 
@@ -18,8 +19,9 @@ void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes);
 /// set touches itself.
 bool pillow(kernel::Mesh& mesh, const std::vector<Index>& faces, std::vector<Index>& nodes);
 
-/// New edges from a to b through new nodes at `points`, in the face that has both on its outline; appends the new nodes to
-/// `nodes`. Returns the first half-edge from a on, or kNone if there is no such face, or no points and an edge already.
+/// New edges from a to b through new nodes at `points`, in the face that has both on its outline; appends the new nodes
+/// to `nodes`. Returns the first half-edge from a on, or kNone if there is no such face, or no points and an edge
+/// already.
 /// Cost: the steps between a and b along the face, the shorter way.
 Index draw_path(kernel::Mesh& mesh, Index a, Index b, const std::vector<Vec2>& points, std::vector<Index>& nodes);
 

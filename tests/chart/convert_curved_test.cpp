@@ -32,7 +32,8 @@ void check(const Patch& patch, const QuadMesh& mesh) {
 }
 
 bool same_bytes(const QuadMesh& a, const QuadMesh& b) {
-  return a.quads == b.quads && a.triangles == b.triangles && a.source == b.source && a.points.size() == b.points.size() &&
+  return a.quads == b.quads && a.triangles == b.triangles && a.source == b.source &&
+         a.points.size() == b.points.size() &&
          std::memcmp(a.points.data(), b.points.data(), sizeof(Vector3d) * a.points.size()) == 0;
 }
 
@@ -81,7 +82,8 @@ TEST_CASE("curved: closed surfaces without a line become quads alone") {
 
 TEST_CASE("curved: the same bytes on one thread and two, and when it is called again") {
   Rng rng(21);
-  for (const Patch& patch : {torus(1, 0.35, 0.15, rng), pierced(sphere(0.12, rng), {0, 0, 1}, 0.4), box({1, 1, 2}, 0.2, rng)}) {
+  for (const Patch& patch :
+       {torus(1, 0.35, 0.15, rng), pierced(sphere(0.12, rng), {0, 0, 1}, 0.4), box({1, 1, 2}, 0.2, rng)}) {
     Options options;
     options.threads = 1;
     const QuadMesh first = convert(patch, options).mesh;

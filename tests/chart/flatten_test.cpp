@@ -73,7 +73,8 @@ TEST_CASE("flatten: what was rolled up is unrolled") {
   }
   SUBCASE("a plane in space, at any scale") {
     for (const double scale : {1e-9, 1.0, 1e9}) {
-      const Flattening chart = flat(mapped(plane, [&](double x, double y) { return Vector3d(scale * Vector3d(x, 0.6 * y, 0.8 * y)); }));
+      const Flattening chart =
+          flat(mapped(plane, [&](double x, double y) { return Vector3d(scale * Vector3d(x, 0.6 * y, 0.8 * y)); }));
       CHECK(chart.distortion == doctest::Approx(1));
       CHECK(chart.scaling == doctest::Approx(1));
     }
@@ -110,7 +111,7 @@ TEST_CASE("flatten: a tube that is closed cannot lie flat, and that shows") {
 
 TEST_CASE("flatten: triangles without area are no numbers that are none") {
   Patch patch = plate(6, 6);
-  patch.points[24] = patch.points[25];                       // two nodes at one place
+  patch.points[24] = patch.points[25];                             // two nodes at one place
   patch.points[16] = 0.5 * (patch.points[15] + patch.points[17]);  // three in a row
   const Flattening chart = flat(mapped(patch, [](double x, double y) { return Vector3d(x, y, 0.05 * x * x); }));
   for (const Vec2& p : chart.points) CHECK(p.allFinite());

@@ -19,11 +19,11 @@ TEST_CASE("topology: loops and Euler's characteristic of surfaces that everybody
     int euler;
     bool planar;
   };
-  for (const Case& c : {Case{"plate", plate(4, 3), 1, 1, true}, Case{"sphere", sphere(0.4, rng), 0, 2, false},
-                        Case{"torus", torus(1, 0.4, 0.2, rng), 0, 0, false},
-                        Case{"double torus", double_torus(0.2, rng), 0, -2, false},
-                        Case{"tube", tube(2, 0.4, 0.2, 1, rng), 2, 0, true},
-                        Case{"torus with a hole", pierced(torus(1, 0.4, 0.2, rng), {1.4, 0, 0}, 0.3), 1, -1, false}}) {
+  for (const Case& c :
+       {Case{"plate", plate(4, 3), 1, 1, true}, Case{"sphere", sphere(0.4, rng), 0, 2, false},
+        Case{"torus", torus(1, 0.4, 0.2, rng), 0, 0, false}, Case{"double torus", double_torus(0.2, rng), 0, -2, false},
+        Case{"tube", tube(2, 0.4, 0.2, 1, rng), 2, 0, true},
+        Case{"torus with a hole", pierced(torus(1, 0.4, 0.2, rng), {1.4, 0, 0}, 0.3), 1, -1, false}}) {
     CAPTURE(c.name);
     const Start start(c.patch);
     const Piece piece = start.whole();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Rows of quads between two rails.
 #include "cleanup/band_plan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Every case of the thesis' tables: its pattern is drawn, found, and replaced, and so is its mirror image.
 #include "cleanup/patterns/cases.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Discs of quads around a node, ring by ring.
 #include "cleanup/cavity.hpp"
 

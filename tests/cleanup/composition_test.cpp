@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The codes of compositions, one by one, and the compositions that mend shapes.
 #include "cleanup/patterns/composition.hpp"
 

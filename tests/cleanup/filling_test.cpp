@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Grids between three, four or five corners of a ring.
 #include "cleanup/filling.hpp"
 

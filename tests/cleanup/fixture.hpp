@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Meshes around one node, drawn from the valences that the nodes around it are to have.
 

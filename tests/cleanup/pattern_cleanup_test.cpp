@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Chevrons, triangularly shaped quads, diamonds and connectivity cases in meshes where they have room to be mended.
 #include "cleanup/patterns/pattern_cleanup.hpp"
 

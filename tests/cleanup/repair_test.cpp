@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Elements that no smoothing can help get other neighbours.
 #include "cleanup/repair.hpp"
 
@@ -21,7 +22,8 @@ Vec2 polar(double radius, double angle) { return {radius * std::cos(angle), radi
 /// The outside of a wedge: two grids of cells x cells quads that share the `angle` at node 0 and the ray between them.
 Mesh outside_of_wedge(double angle, Index cells) {
   const Index row = cells + 1;
-  // Row 0 of a grid lies on the ray that it begins with, column 0 on the one that it ends with; there the second begins.
+  // Row 0 of a grid lies on the ray that it begins with, column 0 on the one that it ends with; there the second
+  // begins.
   const auto at = [&](Index side, Index i, Index j) {
     if (side == 0) return i * row + j;
     return i == 0 ? j * row : row * row + (i - 1) * row + j;

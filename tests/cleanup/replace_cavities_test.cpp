@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Irregular nodes that cancel each other vanish, the boundary stays.
 #include "cleanup/replace_cavities.hpp"
 
@@ -12,7 +13,8 @@ using namespace qmorph;
 using namespace qmorph::test;
 using cleanup::replace_cavities;
 
-/// A grid of 12 x 12 cells, of which a block of 4 x 4 is three grids around a node: nodes of three and five edges around it.
+/// A grid of 12 x 12 cells, of which a block of 4 x 4 is three grids around a node: nodes of three and five edges
+/// around it.
 Mesh grid_with_star() {
   Mesh mesh = grid_with_block(12, 12, 4, 4, 4, {0, 5, 11});
   smoothing::smooth(mesh, {});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Rings of edges to be filled: around a polygon, or around a block of a grid.
 
@@ -9,8 +10,8 @@
 
 namespace qmorph::test {
 
-/// A regular polygon whose side i is cut into sides[i] edges, as a fan of triangles around the last node. Nodes 0, 1, ... are
-/// its outline counter-clockwise, from the first corner on.
+/// A regular polygon whose side i is cut into sides[i] edges, as a fan of triangles around the last node. Nodes 0, 1,
+/// ... are its outline counter-clockwise, from the first corner on.
 inline Mesh polygon(const std::vector<int>& sides) {
   const auto corner = [&](std::size_t i) {
     const double angle = 2 * std::numbers::pi * double(i) / double(sides.size());
@@ -58,8 +59,8 @@ inline Mesh filled_polygon(const std::vector<int>& sides) {
   return mesh;
 }
 
-/// A grid with `columns` x `rows` cells whose block of `width` x `height` cells, `margin` cells inside, has another filling,
-/// with corners at these places counter-clockwise from the block's lower left corner.
+/// A grid with `columns` x `rows` cells whose block of `width` x `height` cells, `margin` cells inside, has another
+/// filling, with corners at these places counter-clockwise from the block's lower left corner.
 inline Mesh grid_with_block(Index columns, Index rows, Index margin, Index width, Index height,
                             const std::vector<int>& corners) {
   Mesh mesh = quad_grid(columns, rows);

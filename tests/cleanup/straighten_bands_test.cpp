@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Bands of one row between two boundaries lose their skew.
 #include "cleanup/straighten_bands.hpp"
 

@@ -37,10 +37,10 @@ struct Place {
 
   /// \return as system() does. What it says is in `said`.
   int shell(const std::string& command) {
-    const int status =
-        std::system(fmt::format("export TMPDIR='{}'; ulimit -c unlimited; cd '{}'; qmorph='{}'; {{ {} ; }} >stdout 2>stderr",
-                                directory / "tmp", directory / ".", QMORPH_COMMAND, command)
-                        .c_str());
+    const int status = std::system(
+        fmt::format("export TMPDIR='{}'; ulimit -c unlimited; cd '{}'; qmorph='{}'; {{ {} ; }} >stdout 2>stderr",
+                    directory / "tmp", directory / ".", QMORPH_COMMAND, command)
+            .c_str());
     said = read_file(directory / "stderr");
     return status;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// --check judges a mesh and writes nothing.
 
 #include <doctest/doctest.h>

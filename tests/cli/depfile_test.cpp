@@ -27,7 +27,8 @@ TEST_CASE("depfile: every file that the geometry includes, merges or takes somet
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "parts");
   write_file(directory / "parts/size.geo", "size = 0.3;\n");
-  write_file(directory / "parts/all.geo", "For i In {1:1}\n  Include Sprintf(\"size%g.geo\", i);\nEndFor\nInclude \"size.geo\";\n");
+  write_file(directory / "parts/all.geo",
+             "For i In {1:1}\n  Include Sprintf(\"size%g.geo\", i);\nEndFor\nInclude \"size.geo\";\n");
   write_file(directory / "parts/size1.geo", "one = 1;\n");
   write_file(directory / "table.txt", "1 2 3\n");
   write_file(directory / "silent.geo", "quiet = 1;\n");
@@ -36,11 +37,13 @@ TEST_CASE("depfile: every file that the geometry includes, merges or takes somet
   write_file(directory / "size.pos", "View \"size\" { SP(0, 0, 0){0.3}; };\n");
   make_msh(directory / "part.msh", 4.1, false, build_two_squares);
   write_file(directory / "in.geo",
-             "Merge \"part.msh\";\nInclude \"parts/all.geo\";\nSetFactory(\"OpenCASCADE\");\nRectangle(91) = {5, 0, 0, 1, 1};\n"
+             "Merge \"part.msh\";\nInclude \"parts/all.geo\";\nSetFactory(\"OpenCASCADE\");\nRectangle(91) = {5, 0, 0, "
+             "1, 1};\n"
              "list() = ListFromFile(\"table.txt\");\nMesh.MeshSizeMax = size;\n"
              "General.Verbosity = 0;\nInclude \"silent.geo\";\nSave \"saved.msh\";\n");
   const std::string out = directory / "out.msh", rule = directory / "out.d";
-  const Result result = run_qmorph({directory / "in.geo", "-o", out, "-option", directory / "my.opt", "--depfile", rule});
+  const Result result =
+      run_qmorph({directory / "in.geo", "-o", out, "-option", directory / "my.opt", "--depfile", rule});
   CAPTURE(result.err);
   REQUIRE(result.status == 0);
   const std::string text = read_file(rule);
@@ -59,23 +62,24 @@ TEST_CASE("depfile: background meshes and merged files") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n");
   write_file(directory / "groups.geo", "Physical Surface(\"all\", 1) = {1};\n");
-  write_file(directory / "size.pos", "View \"size\" { ST(0,0,0, 1,0,0, 1,1,0){0.3,0.3,0.3}; ST(0,0,0, 1,1,0, 0,1,0){0.3,0.3,0.3}; };\n");
-  const Result result = run_qmorph({directory / "in.geo", directory / "groups.geo", "-bgm", directory / "size.pos", "-o",
-                                    directory / "out.msh", "--depfile", directory / "out.d"});
+  write_file(directory / "size.pos",
+             "View \"size\" { ST(0,0,0, 1,0,0, 1,1,0){0.3,0.3,0.3}; ST(0,0,0, 1,1,0, 0,1,0){0.3,0.3,0.3}; };\n");
+  const Result result = run_qmorph({directory / "in.geo", directory / "groups.geo", "-bgm", directory / "size.pos",
+                                    "-o", directory / "out.msh", "--depfile", directory / "out.d"});
   CAPTURE(result.err);
   REQUIRE(result.status == 0);
-  for (const char* name : {"in.geo", "groups.geo", "size.pos"}) CHECK(mentions(read_file(directory / "out.d"), directory / name));
+  for (const char* name : {"in.geo", "groups.geo", "size.pos"})
+    CHECK(mentions(read_file(directory / "out.d"), directory / name));
 }
 
 TEST_CASE("depfile: make builds again when an included file is newer, and not otherwise") {
   const TemporaryDirectory directory;
-  write_file(directory / "in.geo", "Include \"size.geo\";\nSetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n");
+  write_file(directory / "in.geo",
+             "Include \"size.geo\";\nSetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n");
   write_file(directory / "size.geo", "Mesh.MeshSizeMax = 0.3;\n");
   write_file(directory / "Makefile", std::string("out.msh: in.geo\n\techo run >>log\n\t") + QMORPH_COMMAND +
                                          " in.geo -v 0 -o out.msh --depfile out.d\n-include out.d\n");
-  const auto make = [&] {
-    return std::system(("make -s -C '" + (directory / ".") + "' >/dev/null 2>&1").c_str());
-  };
+  const auto make = [&] { return std::system(("make -s -C '" + (directory / ".") + "' >/dev/null 2>&1").c_str()); };
   if (std::system("make --version >/dev/null 2>&1") != 0) return;
   CHECK(make() == 0);
   CHECK(make() == 0);
@@ -96,5 +100,6 @@ TEST_CASE("depfile: names with blanks and signs that make knows") {
   write_file(directory / "in.geo", "Point(1) = {0, 0, 0};\n");
   CHECK(run_qmorph({directory / "in.geo", "-o", "-", "--depfile", directory / "d"}).status == 1);
   CHECK(run_qmorph({directory / "in.geo", "--check", "--depfile", directory / "d"}).status == 1);
-  CHECK(run_qmorph({directory / "in.geo", "-o", directory / "d", "-format", "msh", "--depfile", directory / "d"}).status == 1);
+  CHECK(run_qmorph({directory / "in.geo", "-o", directory / "d", "-format", "msh", "--depfile", directory / "d"})
+            .status == 1);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Every kind of bad input: its message, its exit status, and no file touched (I9).
 
 #include <doctest/doctest.h>

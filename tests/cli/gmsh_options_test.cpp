@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What people write after gmsh in their Makefiles.
 
-#include "cli/gmsh_options.hpp"
+#include "cli/request/gmsh_options.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/request.hpp"
+#include "cli/request/request.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;
@@ -64,6 +65,35 @@ TEST_CASE("messages: places on a map, metres from their origin far away, are tol
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CHECK(result.status == 3);
   CHECK(mentions(result.err, "at (500000.3125, 4649776.5625, 0)"));
+}
+
+TEST_CASE("messages: quads whose order changes are not as they were") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1}; Mesh.MeshSizeMax = 0.5; Mesh.ElementOrder = 2;\n");
+  REQUIRE(run_qmorph({directory / "in.geo", "-o", directory / "quads.msh"}).status == 0);
+  const Result result = run_qmorph({directory / "quads.msh", "-order", "1", "-o", directory / "out.msh"});
+  CHECK(result.status == 0);
+  CHECK(mentions(result.err, "all surfaces are quads already; "));
+  CHECK(!mentions(result.err, "as it was"));
+}
+
+TEST_CASE("messages: what Gmsh says again and again is told once") {
+  qmorph::adapter::StageLog log;
+  log.errors = {"no convergence", "no convergence", "a hole", "no convergence", "a leak"};
+  CHECK(qmorph::adapter::first_errors(log) == "no convergence; a hole; a leak");
+  log.errors.insert(log.errors.end(), {"a twist", "a crack", "a twist"});
+  CHECK(qmorph::adapter::first_errors(log) == "no convergence; a hole; a leak (and 2 more)");
+}
+
+TEST_CASE("messages: a format that Gmsh was built without, in words that are the same each time") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", kPentagon);
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.med"});
+  if (result.status == 0) return;  // this one was built with it
+  CHECK(result.status == 5);
+  CHECK(!mentions(result.err, "tmp-"));
+  CHECK(result.err == run_qmorph({directory / "in.msh", "-o", directory / "out.med"}).err);
 }
 
 TEST_CASE("messages: files of a format in which Gmsh finds nothing are no meshes without surfaces") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// --svg, --pdf, --tikz, --views, --view.
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The program itself, as a Makefile calls it.
 
 #include <doctest/doctest.h>
@@ -119,6 +120,38 @@ TEST_CASE("process: a script that says Exit is not a success") {
   CHECK(call(directory, fmt::format("'{}'", directory / "in.geo")) == 2);
   CHECK(read_file(directory / "stderr").find("Gmsh ended the program") != std::string::npos);
   CHECK(directory.files() == std::vector<std::string>{"in.geo", "stderr", "stdout"});
+}
+
+TEST_CASE("process: options that Gmsh cannot take are no success, and leave nothing in the user's directory") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n");
+  write_file(directory / "bad.opt", "garbage ((\n");
+  write_file(directory / "new.opt", "Mesh.Tomorrow = 1;\nMesh.MeshSizeMax = 0.1;\n");
+  std::filesystem::create_directory(directory / "home");
+  const auto run = [&](const std::string& words) {
+    const std::string out = directory / "out.msh";
+    std::filesystem::remove(out);
+    const int status = std::system(
+        fmt::format("cd '{}' && HOME=home '{}' in.geo -o out.msh {} 2>stderr", directory / ".", QMORPH_COMMAND, words)
+            .c_str());
+    CHECK(std::filesystem::exists(out) == (status == 0));
+    CHECK(std::filesystem::is_empty(directory / "home"));
+    return std::pair(WEXITSTATUS(status), read_file(directory / "stderr"));
+  };
+  CHECK(run("-option none.opt") == std::pair(2, std::string("qmorph: none.opt: no such file\n")));
+  for (const std::string words : {"-option bad.opt", "-string 'garbage (('"}) {
+    CAPTURE(words);
+    const auto [status, said] = run(words);
+    CAPTURE(said);
+    CHECK(status == 2);
+    CHECK(said.rfind("qmorph: the options cannot be understood: '" +
+                         std::string(words[1] == 'o' ? "bad.opt" : "-string") + "'",
+                     0) == 0);
+  }
+  const auto [status, said] = run("-option new.opt");
+  CHECK(status == 0);
+  CHECK(said.find("warning: Unknown number option 'Mesh.Tomorrow'") != std::string::npos);
+  CHECK(run("-string 'Mesh.MeshSizeMax = 0.2;'").first == 0);
 }
 
 TEST_CASE("process: a full disk is said, and the earlier file is as it was") {

@@ -1,4 +1,5 @@
-#include "cli/progress.hpp"
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/messages/progress.hpp"
 
 #include <doctest/doctest.h>
 

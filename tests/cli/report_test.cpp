@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The file of --report. What a browser makes of it: tests/pages.
 
 #include <doctest/doctest.h>
@@ -70,7 +71,8 @@ TEST_CASE("film: one page with the steps of every region; none for a mesh withou
   for (const json& region : facts["regions"]) CHECK(region["step_count"].get<int>() > 5);
   CHECK(run_qmorph({directory / "out.msh", "-o", directory / "again.msh", "--film", path}).status == 0);
   CHECK(facts_of(read_file(path))["regions"].empty());
-  CHECK(run_qmorph({directory / "out.msh", "-o", directory / "again.msh", "--film", path, "--cleanup-only"}).status == 1);
+  CHECK(run_qmorph({directory / "out.msh", "-o", directory / "again.msh", "--film", path, "--cleanup-only"}).status ==
+        1);
 }
 
 TEST_CASE("report: it does not take another file's place") {

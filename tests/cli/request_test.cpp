@@ -1,15 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The words of the command line.
 
-#include "cli/request.hpp"
+#include "cli/request/request.hpp"
 
 #include <doctest/doctest.h>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "cli/request/engine_options.hpp"
 #include "qmorph/error.hpp"
 
+using qmorph::Options;
 using qmorph::UsageError;
+using qmorph::cli::engine_options;
 using qmorph::cli::parse;
 using qmorph::cli::Request;
 using Words = std::vector<std::string>;
@@ -45,6 +50,49 @@ TEST_CASE("request: lists of surfaces") {
 
 TEST_CASE("request: constants of the algorithm") {
   CHECK(parse({"a.msh", "--set", "THETAMAX=170", "--set=GAMMA=0.9"}).settings == Words{"THETAMAX=170", "GAMMA=0.9"});
+}
+
+TEST_CASE("request: what the engine is told") {
+  CHECK(engine_options(parse({"a.msh"})).layers);
+  CHECK(!engine_options(parse({"a.msh", "--layers=off"})).layers);
+  CHECK(engine_options(parse({"a.msh"})).crease_angle == Options().crease_angle);
+  CHECK(engine_options(parse({"a.msh", "--crease", "180"})).crease_angle == doctest::Approx(std::numbers::pi));
+  CHECK(engine_options(parse({"a.msh", "-nt", "3"})).threads == 3);
+  CHECK(engine_options(parse({"a.msh", "--smoothing", "thesis"})).smoothing.method == qmorph::SmoothingMethod::thesis);
+  for (const Words& words : {Words{"--smoothing", "sand"}, Words{"--set", "layers"}, Words{"--set", "layers=x"}})
+    CHECK_THROWS_AS(engine_options(parse({"a.msh", words[0], words[1]})), UsageError);
+}
+
+TEST_CASE("request: options that would have no effect are refused") {
+  const struct {
+    Words words;
+    const char* message;
+  } kCases[] = {
+      {{"--max-distance", "1"}, "go with --check"},
+      {{"--against", "b.msh"}, "go with --check"},
+      {{"--check", "--max-distance", "1"}, "name their mesh: --against FILE"},
+      {{"--check", "--max-size-ratio", "2"}, "name their mesh: --against FILE"},
+      {{"--check", "--layers", "off"}, "--check changes nothing; leave out --layers"},
+      {{"--check", "--crease", "20"}, "--check changes nothing; leave out --crease"},
+      {{"--check", "--orient"}, "--check changes nothing; leave out --orient"},
+      {{"--check", "--depfile", "b.d"}, "--check writes nothing; leave out --depfile"},
+      {{"--check", "-o", "b.msh"}, "--check writes nothing; leave out -o"},
+      {{"--cleanup-only", "--layers", "on"}, "--cleanup-only finds quads"},
+      {{"--cleanup-only", "--all-quad"}, "--cleanup-only takes curves as they are"},
+      {{"--keep-curves", "3"}, "without --all-quad"},
+      {{"--depfile", "b.d", "-o", "-"}, "give -o a name"},
+      {{"--stage", "front"}, "are for pictures"},
+      {{"--elements", "S"}, "goes with --for"},
+      {{"--layers", "some"}, "--layers"},
+      {{"--crease", "200"}, "--crease"},
+      {{"--crease", "-1"}, "--crease"},
+  };
+  for (const auto& the_case : kCases) {
+    Words words{"a.msh"};
+    words.insert(words.end(), the_case.words.begin(), the_case.words.end());
+    CAPTURE(words);
+    CHECK_THROWS_WITH_AS(parse(words), doctest::Contains(the_case.message), UsageError);
+  }
 }
 
 TEST_CASE("request: names of files may be odd") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What always works: two triangles meet, whatever lies between them.
 #include "elimination/certain.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Triangle elimination: none is left where the boundary is even, one where it is odd.
 #include <doctest/doctest.h>
 

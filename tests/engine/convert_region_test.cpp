@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Small regions that come out poor are tried again with other constants of the front.
 #include <doctest/doctest.h>
 
@@ -18,8 +19,8 @@ struct Worth {
   double sum = 0;    ///< what a try is judged by
 };
 
-/// The smallest scaled Jacobian counts up to 0.4, a tenth of it up to 0.7, and twice the mean metric of the thesis; quads beyond
-/// 1.25 times those that equilateral triangles with the same sides ask for count against it.
+/// The smallest scaled Jacobian counts up to 0.4, a tenth of it up to 0.7, and twice the mean metric of the thesis;
+/// quads beyond 1.25 times those that equilateral triangles with the same sides ask for count against it.
 Worth worth(const QuadMesh& mesh, const Eigen::Vector3d& normal, std::size_t triangles) {
   double least = 1, shapes = 0;
   for (const auto& q : mesh.quads) {
@@ -57,7 +58,6 @@ std::vector<Patch> small_regions(std::size_t most_triangles, std::size_t wanted)
 QuadMesh convert_with(const Patch& patch, std::size_t retry_triangles) {
   Options options;
   options.retry_triangles = retry_triangles;
-  options.layers = false;  // a try is judged by what the front has made
   return convert(patch, options).mesh;
 }
 

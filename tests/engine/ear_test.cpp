@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The triangle that an odd boundary leaves goes into a sharp corner.
 #include "engine/ear.hpp"
 

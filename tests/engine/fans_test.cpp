@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Large fans get rings of nodes around their centre.
 #include "engine/fans.hpp"
 

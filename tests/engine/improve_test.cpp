@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Quads and triangles in, better quads out.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Large regions are cut into parts; what the parts become is put together again.
 #include <doctest/doctest.h>
 

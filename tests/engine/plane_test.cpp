@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The plane of a surface, and surfaces that have none.
 #include <doctest/doctest.h>
 

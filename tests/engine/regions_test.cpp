@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A surface is cut along its constraints into manifolds with boundary.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What an observer is told of a conversion as a whole: the surface after each stage, the fronts that led there.
 #include <doctest/doctest.h>
 

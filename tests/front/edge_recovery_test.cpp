@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // An edge between two given nodes by swapping what is in its way.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A mesh with the advancing front on it, as the driver sets it up, for tests of single steps.
 
@@ -12,11 +13,12 @@ inline constexpr double kPi = std::numbers::pi;
 /// length of its edges, unless `size` is set.
 struct Scene {
   explicit Scene(Mesh start, FrontOptions front_options = {})
-      : mesh(std::move(start)),
-        options(front_options),
-        front(mesh, options),
-        colours(mesh, front),
-        step{mesh, front, colours, options, {}, {}} {
+      : mesh(std::move(start)), options(front_options), front(mesh, options), colours(mesh, front), step{mesh,
+                                                                                                         front,
+                                                                                                         colours,
+                                                                                                         options,
+                                                                                                         {},
+                                                                                                         {}} {
     for (Index v = 0; v < mesh.vertex_slots(); ++v)
       if (mesh.is_live_vertex(v)) step.size.set(v, mean_edge(v));
     for (Index h = 0; h < mesh.half_edge_slots(); ++h)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What is on the front, what follows what, angles, states and the queue.
 #include <doctest/doctest.h>
 

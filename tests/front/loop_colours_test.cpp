@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Parity of front loops by colours, against counting.
 #include <doctest/doctest.h>
 

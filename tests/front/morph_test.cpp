@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The front as a whole on small meshes.
 #include <doctest/doctest.h>
 

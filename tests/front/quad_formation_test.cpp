@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A ring of edges becomes a face if there are only triangles inside.
 #include <doctest/doctest.h>
 

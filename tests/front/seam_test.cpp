@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Seam, transition seam and transition split: small meshes in, small meshes out, drawn both ways round.
 #include <doctest/doctest.h>
 
@@ -231,8 +232,8 @@ TEST_CASE("transition split: the quad behind the long edge becomes two, and a tr
   check_transition_split({-2.5, -1.2}, true);
 }
 
-// With c at the centroid, as in the thesis, the far quad would have a straight corner in a parallelogram and a reflex one
-// in a quad whose far corner is farther out.
+// With c at the centroid, as in the thesis, the far quad would have a straight corner in a parallelogram and a reflex
+// one in a quad whose far corner is farther out.
 TEST_CASE("transition split: behind the long edge is a rectangle, or a quad that bulges") {
   check_transition_split({-3, -1.5}, false);
   check_transition_split({-3.5, -2}, true);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Side edges: an edge that is there, a swap, a split; and what parity and size forbid.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Loops of four and six edges are closed at once where the quads are good.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Plane vectors: angles, and when a corner counts as convex.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Laws of the exact predicate, and what it says where doubles are not enough.
 #include <doctest/doctest.h>
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Files that would crash Gmsh, or take all memory, are refused by what they say, in every version, as text and as bytes.
+/// Files that would crash Gmsh, or take all memory, are refused by what they say, in every version, as text and as
+/// bytes.
 
 #include <doctest/doctest.h>
 
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 #include "qmorph/error.hpp"
@@ -18,6 +21,7 @@
 
 using namespace qmorph;
 using namespace qmorph::test;
+using namespace std::string_literals;
 
 namespace {
 
@@ -60,8 +64,7 @@ std::string version_2(bool binary, const Wrong& wrong) {
   if (binary) out.integer(1).text("\n");
   out.text("$EndMeshFormat\n$Nodes\n" + std::to_string(wrong.nodes) + "\n");
   const double xy[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (int i = 0; i < 4; ++i)
-    out.integer(i < 3 ? i + 1 : int(wrong.node)).real(xy[i][0]).real(xy[i][1]).real(0).end();
+  for (int i = 0; i < 4; ++i) out.integer(i < 3 ? i + 1 : int(wrong.node)).real(xy[i][0]).real(xy[i][1]).real(0).end();
   out.close("Nodes").text("$Elements\n" + std::to_string(wrong.elements) + "\n");
   const auto element = [&](int number, int entity, std::initializer_list<int> nodes) {
     if (!binary)
@@ -133,8 +136,8 @@ TEST_CASE("broken files: text and bytes, version 2 and 4, are refused for the sa
       {"an entity below nothing", [](Wrong& wrong) { wrong.entity = -603979775; }},
       {"an element number below nothing", [](Wrong& wrong) { wrong.number = -7; }},
       {"a node number below nothing", [](Wrong& wrong) { wrong.node = wrong.last_node = -4; }},
-      {"a node number that is too large",
-       [](Wrong& wrong) { wrong.node = wrong.last_node = std::int64_t{1} << 40; }, true, false},
+      {"a node number that is too large", [](Wrong& wrong) { wrong.node = wrong.last_node = std::int64_t{1} << 40; },
+       true, false},
   };
   const TemporaryDirectory directory;
   for (const bool binary : {false, true}) {
@@ -162,17 +165,20 @@ TEST_CASE("broken files: data, periodic nodes, groups and names that reach beyon
       {mesh + "$Periodic\n1\n1 1 2\n1000000000\n1 2\n$EndPeriodic\n", "more nodes than Gmsh can read"},
       {mesh + "$Periodic\n1\n1 1 2\n1\n1 9\n$EndPeriodic\n", "names node 9"},
       {mesh_4 + "$Periodic\n1\n1 8 9\n0\n1\n1 2\n$EndPeriodic\n", "names the entity 8 of dimension 1"},
-      {"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 9000000000 0\n$EndEntities\n" + mesh_4.substr(34), "entities"},
+      {"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 9000000000 0\n$EndEntities\n" + mesh_4.substr(34),
+       "entities"},
       {"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n7 1 \"x\"\n$EndPhysicalNames\n" + mesh_4.substr(34),
        "a group of dimension 7"},
       {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"" + std::string(300, 'x') +
            "\"\n$EndPhysicalNames\n" + mesh.substr(34),
        "has a name of"},
-      {mesh.substr(0, mesh.find("$Elements")) + "$Elements\n1\n1 2 5 0 1 9 1 2 1 2 3\n$EndElements\n", "in 9 partitions"},
+      {mesh.substr(0, mesh.find("$Elements")) + "$Elements\n1\n1 2 5 0 1 9 1 2 1 2 3\n$EndElements\n",
+       "in 9 partitions"},
       {mesh.substr(0, mesh.find("$Elements")) + "$Elements\n1\n1 2 4 0 1 1 2000000000 1 2 3\n$EndElements\n",
        "the first is 2000000000"},
       {mesh.substr(0, mesh.find("$Elements")) + "$Elements\n1\n1 2 2 0 1 1 two 3\n$EndElements\n", "has 'two' where"},
-      {std::string("$MeshFormat\n4.1 1 4\n\1\0\0\0\n$EndMeshFormat\n$Elements\n$EndElements\n", 69), "numbers of 4 bytes"},
+      {"$MeshFormat\n4.1 1 4\n\1\0\0\0\n$EndMeshFormat\n$Elements\n$EndElements\n"s,
+       "numbers of 4 bytes"},
   };
   const TemporaryDirectory directory;
   for (const auto& the_case : kCases) {
@@ -186,8 +192,7 @@ TEST_CASE("broken files: data, periodic nodes, groups and names that reach beyon
 TEST_CASE("broken files: what Gmsh writes is taken, whatever is in it") {
   const TemporaryDirectory directory;
   const std::vector<std::function<void()>> models = {
-      build_two_squares,
-      [] { build_two_squares(), ::gmsh::model::mesh::setOrder(2); },
+      build_two_squares, [] { build_two_squares(), ::gmsh::model::mesh::setOrder(2); },
       [] { build_two_squares(), ::gmsh::model::mesh::setOrder(3); },
       [] { build_two_squares(), ::gmsh::model::mesh::partition(3); },
       [] {
@@ -207,6 +212,31 @@ TEST_CASE("broken files: what Gmsh writes is taken, whatever is in it") {
         make_msh(directory / "in.msh", version, binary, models[i]);
         CHECK(complaint(directory, read_file(directory / "in.msh")) == "");
       }
+}
+
+TEST_CASE("broken files: no node of a partitioned mesh of version 3 is taken for a partition") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 3.0, false, [] { build_two_squares(), ::gmsh::model::mesh::partition(3); });
+  const std::string whole = read_file(directory / "in.msh");
+  std::size_t changed = 0, line = whole.find('\n', whole.find("$Elements\n") + 10) + 1;  // behind the count
+  for (; whole[line] != '$'; line = whole.find('\n', line) + 1) {
+    std::istringstream in(whole.substr(line, whole.find('\n', line) - line));
+    const std::vector<std::string> words(std::istream_iterator<std::string>(in), {});
+    if (words[1] != "2" || words.size() < 8)
+      continue;  // number, type, entity, how many follow: three nodes, partitions
+    for (std::size_t k = 4; k < 7; ++k) {
+      std::vector<std::string> wrong = words;
+      wrong[k] = "-1";
+      std::string text;
+      for (const std::string& word : wrong) text += word + ' ';
+      const std::string said =
+          complaint(directory, whole.substr(0, line) + text + whole.substr(whole.find('\n', line)));
+      CHECK(said.find("uses node -1") != std::string::npos);
+      ++changed;
+    }
+    if (changed > 30) break;
+  }
+  CHECK(changed > 30);
 }
 
 TEST_CASE("broken files: no word of a binary file can be changed so that the check itself goes astray") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// --for: what each reader needs, and what is said when it cannot have it.
 
 #include <doctest/doctest.h>

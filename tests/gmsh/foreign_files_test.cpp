@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Files that no Gmsh wrote: without entities, tags, curves, order.
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Formats other than MSH: written, and read again by Gmsh, the mesh is the same.
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Geometries: meshed by Gmsh on the way, with even boundaries, with the options of a gmsh command line.
 
 #include <doctest/doctest.h>

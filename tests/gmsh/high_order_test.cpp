@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Elements of second and higher order, from files and from geometries.
 
 #include <doctest/doctest.h>

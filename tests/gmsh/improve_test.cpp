@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Quads that are there already, made better: qmorph::improve_quads() and --cleanup-only.
 
 #include <doctest/doctest.h>

@@ -26,8 +26,8 @@ std::string block_in_box(const std::string& first, const std::string& ratio, boo
          "Line(5)={5,6}; Line(6)={6,7}; Line(7)={7,8}; Line(8)={8,5};\n"
          "Curve Loop(1)={5:8}; Curve Loop(2)={1:4}; Plane Surface(1)={1,2};\n"
          "Field[1]=BoundaryLayer; Field[1].EdgesList={1:4}; Field[1].FanNodesList={1:4}; Field[1].hwall_n=" +
-         first + "; Field[1].ratio=" + ratio + "; Field[1].thickness=.08; Field[1].hfar=.4; Field[1].Quads=" +
-         (quads ? "1" : "0") +
+         first + "; Field[1].ratio=" + ratio +
+         "; Field[1].thickness=.08; Field[1].hfar=.4; Field[1].Quads=" + (quads ? "1" : "0") +
          ";\nBoundaryLayer Field=1; Physical Curve(\"wall\")={1:4}; Physical Surface(\"fluid\")={1};\n";
 }
 
@@ -35,6 +35,14 @@ std::string block_in_box(const std::string& first, const std::string& ratio, boo
 std::string extruded_wall(bool quads) {
   return std::string("Point(1)={0,0,0,.1}; Point(2)={2,0,0,.1}; Line(1)={1,2}; Transfinite Curve{1}=21;\n") +
          "e[]=Extrude{0,.1,0}{ Curve{1}; Layers{ {1,1,1,1}, {.05,.2,.5,1} };" + (quads ? " Recombine;" : "") + " };\n";
+}
+
+/// A quarter of a cylinder with rows from one rim to the other.
+std::string extruded_arc(bool quads) {
+  return std::string(
+             "Point(1)={0,0,0}; Point(2)={1,0,0}; Point(3)={0,1,0}; Circle(1)={2,1,3}; Transfinite Curve{1}=21;\n") +
+         "e[]=Extrude{0,0,1}{ Curve{1}; Layers{ {1,1,1,1,1,8}, {.01,.03,.07,.14,.24,1} };" +
+         (quads ? " Recombine;" : "") + " };\n";
 }
 
 std::string transfinite(bool quads) {
@@ -45,7 +53,7 @@ std::string transfinite(bool quads) {
          (quads ? "Recombine Surface{1};\n" : "");
 }
 
-using Place = std::pair<long long, long long>;  // rounded, since files are
+using Place = std::array<long long, 3>;  // rounded, since files are
 using Places = std::array<Place, 4>;
 
 /// The quads of a file by their corners' places. \param mesh_first by Gmsh, as the script says
@@ -58,7 +66,7 @@ std::set<Places> quads_of(const std::string& path, bool mesh_first) {
   std::vector<double> xyz, uv;
   gmsh::model::mesh::getNodes(node_tags, xyz, uv);
   std::map<std::size_t, Place> place;
-  for (std::size_t i = 0; i < node_tags.size(); ++i) place[node_tags[i]] = {std::llround(1e9 * xyz[3 * i]), std::llround(1e9 * xyz[3 * i + 1])};
+  for (std::size_t i = 0; i < xyz.size(); ++i) place[node_tags[i / 3]][i % 3] = std::llround(1e9 * xyz[i]);
   gmsh::model::mesh::getElementsByType(3, tags, nodes);
   std::set<Places> quads;
   for (std::size_t e = 0; e < tags.size(); ++e) {
@@ -91,6 +99,7 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
       {block_in_box(".005", "1.3", false), block_in_box(".005", "1.3", true)},
       {block_in_box(".0001", "1.4", false), block_in_box(".0001", "1.4", true)},
       {extruded_wall(false), extruded_wall(true)},
+      {extruded_arc(false), extruded_arc(true)},
       {transfinite(false), transfinite(true)}};
   for (const auto& [script, with_quads] : cases) {
     write_file(directory / "in.geo", script);
@@ -105,10 +114,12 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
       gmsh::model::mesh::generate(2);
       gmsh::write(directory / "in.msh");
     }
-    const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--stats", directory / "out.json"});
+    const Result result =
+        run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--stats", directory / "out.json"});
     CAPTURE(result.err);
     CHECK(result.status == 0);
-    const std::set<Places> truth = quads_of(directory / "quads.geo", true), ours = quads_of(directory / "out.msh", false);
+    const std::set<Places> truth = quads_of(directory / "quads.geo", true),
+                           ours = quads_of(directory / "out.msh", false);
     REQUIRE(!truth.empty());
     const double kept = figure(read_file(directory / "out.json"), "layer_quads");
     CHECK(double(lost(truth, ours)) <= 0.02 * double(truth.size()));
@@ -143,8 +154,8 @@ TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, which is said 
   });
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--layers=off"});
   CHECK(mentions(result.err, "warning: surface 1: its quads are "));
-  const Result judged = run_qmorph(
-      {"--check", directory / "out.msh", "--against", directory / "in.msh", "--max-size-ratio", "1.5"});
+  const Result judged =
+      run_qmorph({"--check", directory / "out.msh", "--against", directory / "in.msh", "--max-size-ratio", "1.5"});
   CAPTURE(judged.err);
   CHECK(judged.status == 6);
   CHECK(mentions(judged.err, "qmorph: surface 1: its quads are "));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Each kind of model through each version and encoding: what was not converted is identical, entity by entity.
 
 #include <doctest/doctest.h>

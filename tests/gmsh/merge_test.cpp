@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Several files make one model.
 
 #include "gmsh/read/merge.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// MSH 2 gives a physical group to each element, Gmsh to each entity.
 
 #include <doctest/doctest.h>

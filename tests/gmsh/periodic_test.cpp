@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Surfaces that are images of one another stay so.
 
 #include "gmsh/convert/periodic.hpp"
@@ -183,7 +184,8 @@ TEST_CASE("periodic: all of a family or none") {
 }
 
 TEST_CASE("periodic: a mesh that is not the image of its master is left, and so is the master") {
-  // In a file that pairs the node and in one that does not: there Gmsh 4.8 has no pair, and later ones take the nearest.
+  // In a file that pairs the node and in one that does not: there Gmsh 4.8 has no pair, and later ones take the
+  // nearest.
   for (const int pairs : {25, 24}) {
     CAPTURE(pairs);
     const TemporaryDirectory directory;

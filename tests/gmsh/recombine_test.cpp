@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The call inside a program that runs the Gmsh API itself.
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// A rectangle whose opposite sides have the same number of edges is a grid, and nothing is simpler to see.
 
 #include <doctest/doctest.h>

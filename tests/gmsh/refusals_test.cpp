@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What cannot be converted is left as it was, and said: which surface, where, why. The rest is converted.
 
 #include <doctest/doctest.h>

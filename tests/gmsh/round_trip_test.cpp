@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What goes in must come out, but for the inside of the surfaces that are converted (I1, I7).
 
 #include <doctest/doctest.h>

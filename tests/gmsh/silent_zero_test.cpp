@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Success is not to be told of what is not so: elements that the file does not have, parts that hang together by nothing, options
-/// that made no difference.
+/// Success is not to be told of what is not so: elements that the file does not have, parts that hang together by
+/// nothing, options that made no difference.
 
 #include <doctest/doctest.h>
 
@@ -152,8 +152,8 @@ TEST_CASE("silent zero: sheets that lie over one another are said to, wherever t
 TEST_CASE("silent zero: options that make no difference are named") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
-  const Result mesh =
-      run_qmorph({directory / "in.msh", "-clmax", "3", "-setnumber", "Mesh.MeshSizeMin", "2", "-o", directory / "a.msh"});
+  const Result mesh = run_qmorph(
+      {directory / "in.msh", "-clmax", "3", "-setnumber", "Mesh.MeshSizeMin", "2", "-o", directory / "a.msh"});
   CHECK(mesh.status == 0);
   CHECK(mentions(mesh.err, "warning: Gmsh has nothing to mesh, and -clmax, Mesh.MeshSizeMin are ignored"));
   write_file(directory / "in.geo", std::string(kTwoRectangles) + "Mesh.SubdivisionAlgorithm = 1;\n");

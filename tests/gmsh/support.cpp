@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/support.hpp"
 
 #include <unistd.h>
@@ -151,8 +152,7 @@ std::string difference(const Snapshot& before, const Snapshot& after, const std:
     return std::tie(a.dim, a.slave, a.master, a.nodes) == std::tie(b.dim, b.slave, b.master, b.nodes);
   };
   if (before.links.size() != after.links.size()) return "number of periodic links";
-  if (compare == Compare::tags &&
-      !std::equal(before.links.begin(), before.links.end(), after.links.begin(), same_link))
+  if (compare == Compare::tags && !std::equal(before.links.begin(), before.links.end(), after.links.begin(), same_link))
     return "periodic links";
   return {};
 }

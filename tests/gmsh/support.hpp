@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Files, models and comparisons for the tests of the adapter and the command.
 
@@ -60,8 +61,8 @@ Snapshot read_snapshot(const std::string& path);
 /// How the nodes of two files are told to be the same.
 enum class Compare { tags, coordinates };
 
-/// What differs between two files besides the inside of the surfaces `converted`: entities, groups, nodes and elements of
-/// points, curves, other surfaces and volumes, and boundary edges of the converted ones. Empty if nothing does.
+/// What differs between two files besides the inside of the surfaces `converted`: entities, groups, nodes and elements
+/// of points, curves, other surfaces and volumes, and boundary edges of the converted ones. Empty if nothing does.
 std::string difference(const Snapshot& before, const Snapshot& after, const std::set<int>& converted,
                        Compare compare = Compare::tags);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Traps of the Gmsh API that this code has to step around, one test each.
 
 #include <doctest/doctest.h>

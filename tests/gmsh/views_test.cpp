@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Data on nodes and elements of a file goes to the quads.
 
 #include "gmsh/views/views.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Models with volumes: removed before, or made after the quads.
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The core library alone: arrays in, arrays out.
 #include <qmorph/convert.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A program that runs the Gmsh API: qmorph::gmsh::recombine() where gmsh::model::mesh::recombine() stood.
 #include <gmsh.h>
 #include <qmorph/gmsh.hpp>

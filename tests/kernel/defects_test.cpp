@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // find_defects sees meshes that are not legal, as far as they can be made at all.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What must hold after any legal edits of any mesh.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Every edit of the half-edge mesh on a drawn case.
 #include <doctest/doctest.h>
 

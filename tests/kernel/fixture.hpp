@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Small meshes for tests of the kernel and of everything above it, and what can be said about any mesh.
 

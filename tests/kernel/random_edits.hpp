@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Random legal edits of a mesh, each with what it must do to counts and boundary.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // sort_unique() gives what a set would, however far apart the values are.
 #include "kernel/sort_unique.hpp"
 

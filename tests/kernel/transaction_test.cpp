@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What a rollback brings back, and what a commit keeps.
 #include <doctest/doctest.h>
 

@@ -15,15 +15,16 @@
 
 namespace {
 
+using Eigen::Vector3d;
 using qmorph::Index;
 using qmorph::Patch;
-using Eigen::Vector3d;
 using Quad = std::array<Index, 4>;
 
 enum class Diagonals { rising, falling, alternating };
 
 /// nx by ny cells, node (i, j) at place(i, j), each cut in two.
-Patch grid(Index nx, Index ny, const std::function<Vector3d(Index, Index)>& place, Diagonals diagonals = Diagonals::rising) {
+Patch grid(Index nx, Index ny, const std::function<Vector3d(Index, Index)>& place,
+           Diagonals diagonals = Diagonals::rising) {
   Patch patch;
   for (Index j = 0; j <= ny; ++j)
     for (Index i = 0; i <= nx; ++i) patch.points.push_back(place(i, j));
@@ -80,7 +81,26 @@ TEST_CASE("layers: a grid of long rectangles is one, whichever way they are cut"
 
 TEST_CASE("layers: squares and rectangles of 2 to 1 are no layers") {
   for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
-    for (const double length : {0.5, 1.0, 2.0}) CHECK(layer_quads(grid(10, 10, rectangles(length, 1), diagonals)) == 0);
+    for (const double length : {0.5, 1.0, 2.0})
+      for (const double size : {1.0, 0.1, 1.0 / 3}) {
+        CAPTURE(int(diagonals));
+        CAPTURE(length);
+        CAPTURE(size);
+        CHECK(layer_quads(grid(10, 10, rectangles(length * size, size), diagonals)) == 0);
+      }
+}
+
+TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short cells is none") {
+  for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
+    for (const double lean : {-1.0, 0.5, 1.0}) {
+      const auto leaning = [&](double length) {
+        return [=](Index i, Index j) { return Vector3d(length * i + lean * j, j, 0); };
+      };
+      CAPTURE(int(diagonals));
+      CAPTURE(lean);
+      CHECK(whole_cells(grid(10, 8, leaning(10), diagonals), 10, 8) == 80);
+      CHECK(layer_quads(grid(10, 8, leaning(1), diagonals)) == 0);
+    }
 }
 
 TEST_CASE("layers: equilateral triangles are none, however they are stretched") {
@@ -114,9 +134,7 @@ TEST_CASE("layers: heights may grow, double and differ from column to column") {
 }
 
 TEST_CASE("layers: a surface in space has its layers, flat or not") {
-  const auto place = [](Index i, Index j) {
-    return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j);
-  };
+  const auto place = [](Index i, Index j) { return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j); };
   CHECK(whole_cells(grid(40, 8, place), 40, 8) == 320);
 }
 
@@ -141,7 +159,8 @@ TEST_CASE("layers: quads that are there already stay first") {
   CHECK_MESSAGE(broken.empty(), broken.front());
 }
 
-TEST_CASE("layers: where the wall ends in a sharp corner, an odd number of triangles at the tip cuts one spoke in two") {
+TEST_CASE(
+    "layers: where the wall ends in a sharp corner, an odd number of triangles at the tip cuts one spoke in two") {
   // Rows round a plate of one edge, in spokes of 180 / 3 degrees at both ends, and a ring of other triangles around.
   for (const int spokes : {2, 3, 4, 5}) {
     const Index rows = 6, around = Index(2 * spokes + 2 * 4);
@@ -184,6 +203,29 @@ TEST_CASE("layers: where the wall ends in a sharp corner, an odd number of trian
     const std::size_t tips = spokes == 2 ? 0 : 2 * std::size_t((spokes + 1) / 2);  // in pairs, if not straight ones
     CHECK(report.layer_quads == cells + more + tips);
   }
+}
+
+TEST_CASE("layers: of one row with four nodes more on one side, two stretches between two of these are lost at most") {
+  constexpr Index kCells = 60;
+  const std::set<Index> more = {10, 20, 29, 39};
+  Patch patch;
+  Index below = 0, above = 1;
+  patch.points = {{0, 0, 0}, {0, 1, 0}};
+  const auto add = [&](const Vector3d& point) { return patch.points.push_back(point), Index(patch.points.size() - 1); };
+  for (Index i = 0; i < kCells; ++i) {
+    if (more.contains(i)) {
+      const Index middle = add({3 * i + 1.5, 1, 0});
+      patch.triangles.push_back({below, middle, above});
+      above = middle;
+    }
+    const Index next_below = add({3.0 * i + 3, 0, 0}), next_above = add({3.0 * i + 3, 1, 0});
+    patch.triangles.insert(patch.triangles.end(), {{below, next_below, above}, {next_below, next_above, above}});
+    below = next_below, above = next_above;
+  }
+  const auto [mesh, report] = qmorph::convert(patch);
+  const auto broken = qmorph::test::broken_invariants(patch, mesh);
+  CHECK_MESSAGE(broken.empty(), broken.front());
+  CHECK(report.layer_quads >= kCells - 2 * 12);
 }
 
 TEST_CASE("layers: without the option there are none") {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A page in Debian's chromium without a window, driven by selenium; what it says on its console and asks of the network.
 
 Exits with 77, which ctest calls skipped, where chromium or selenium is not installed (tools/setup --tests installs them).

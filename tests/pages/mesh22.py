@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests of pages know of a mesh without asking the page: MSH 2.2 as text, and figures of its quads."""
 import math
 

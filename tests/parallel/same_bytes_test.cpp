@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What comes out does not depend on the number of threads.
 #include <doctest/doctest.h>
 

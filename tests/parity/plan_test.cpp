@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Which edges get a node so that all regions become even.
 #include "parity/plan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Patches that the engine must refuse, with a message that says where.
 #include <doctest/doctest.h>
 
@@ -5,7 +6,11 @@
 #include <limits>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "qmorph/convert.hpp"
+#include "support/domains.hpp"
+#include "support/rng.hpp"
 
 namespace {
 
@@ -59,6 +64,15 @@ Patch spiral(double turns, double growth) {
 
 TEST_CASE("a good patch is not refused") { CHECK(refusal(grid()) == ""); }
 
+TEST_CASE("patches that are curved, or bent at a right angle, are not refused") {
+  Patch patch = grid();
+  SUBCASE("curved") { patch.points[4].z() = 0.2; }
+  SUBCASE("bent") {
+    for (const Index i : {2u, 5u, 8u}) patch.points[i] = {1, patch.points[i].y(), 1};
+  }
+  CHECK(refusal(patch) == "");
+}
+
 TEST_CASE("patches that are refused with SurfaceError") {
   Patch patch = grid();
   SUBCASE("a coordinate that is no number") { patch.points[4].x() = std::numeric_limits<double>::quiet_NaN(); }
@@ -70,10 +84,6 @@ TEST_CASE("patches that are refused with SurfaceError") {
     patch.triangles.push_back({0, 9, 4});
   }
   SUBCASE("a triangle twice") { patch.triangles.push_back(patch.triangles[0]); }
-  SUBCASE("a curved surface") { patch.points[4].z() = 0.2; }
-  SUBCASE("a surface folded at a right angle") {
-    for (const Index i : {2u, 5u, 8u}) patch.points[i] = {1, patch.points[i].y(), 1};
-  }
   SUBCASE("a node number that does not exist") { patch.triangles[0][1] = 9; }
   SUBCASE("a triangle with a node twice") { patch.triangles[0] = {0, 1, 1}; }
   SUBCASE("a node that is covered twice") {  // a fan of 720 degrees
@@ -88,7 +98,7 @@ TEST_CASE("patches that are refused with SurfaceError") {
   CHECK(refusal(patch) != "");
 }
 
-TEST_CASE("surfaces ten million times longer than high: rectangles are found, for needles the message says why not") {
+TEST_CASE("surfaces ten million times longer than high become quads, needles at their ends, too") {
   const auto strip = [](double height, double height_at_ends) {
     Patch patch;
     const Index steps = 40;
@@ -111,11 +121,33 @@ TEST_CASE("surfaces ten million times longer than high: rectangles are found, fo
   for (auto& t : needle.triangles)
     for (Index& v : t)
       if (v == 1 || v == 81) --v;
-  CHECK(refusal(needle).find("no valid quads were found where 78 of 78 triangles") == 0);
+  CHECK(refusal(needle) == "");
 }
 
 TEST_CASE("a band that lies over itself is refused, one that does not is not") {
   CHECK(refusal(spiral(0.9, 0)) == "");
   CHECK(refusal(spiral(1.5, 1.2)) == "");  // each turn outside the one before
   CHECK(refusal(spiral(1.5, 0.5)) != "");
+}
+
+TEST_CASE("nodes that are off by a hundredth of an edge break no more than the surface that they belong to") {
+  // Some of these have layers beside a region that is stuck, and which is left out at first.
+  for (std::uint64_t seed = 46; seed < 58; ++seed) {
+    Patch patch = qmorph::test::random_domain(seed).patch;
+    qmorph::test::Rng rng(seed);
+    const Eigen::Vector3d a = patch.points[patch.triangles[0][1]] - patch.points[patch.triangles[0][0]];
+    const Eigen::Vector3d normal =
+        a.cross(patch.points[patch.triangles[0][2]] - patch.points[patch.triangles[0][0]]).normalized();
+    for (Eigen::Vector3d& p : patch.points) {
+      const Eigen::Vector3d step(rng.between(-1, 1), rng.between(-1, 1), rng.between(-1, 1));
+      p += 0.01 * a.norm() * (step - step.dot(normal) * normal);
+    }
+    CAPTURE(seed);
+    try {
+      const qmorph::QuadMesh mesh = qmorph::convert(patch).mesh;  // thrown inside CHECK it would count as a failure
+      CHECK(mesh.quads.size() >= patch.quads.size());
+    } catch (const qmorph::SurfaceError& error) {
+      CHECK(error.place());
+    }
+  }
 }

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Long runs over random domains.
 //
 //   qmorph_campaign FIRST LAST          converts the seeds FIRST to LAST: a line for each that fails, then the totals
 //   qmorph_campaign --dump SEED PREFIX  writes PREFIX-in.msh and, if the conversion ends, PREFIX-out.msh
 //   qmorph_campaign --shrink SEED PREFIX  the same for a smaller patch that fails in the same way
 //
-// Seeds from 1000000000 on are nasty domains (support/nasty.hpp), those from 2000000000 on surfaces (support/surfaces.hpp).
+// Seeds from 1000000000 on are nasty domains (support/nasty.hpp), those from 2000000000 on surfaces
+// (support/surfaces.hpp).
 //
 // The seeds run in a child process, so that one that crashes or hangs is reported like any other, and the rest goes on.
 // Exit status 0 if nothing failed.
@@ -69,9 +71,8 @@ Report run_seed(std::uint64_t seed) {
     if (!broken.empty()) problem = broken.front();
     if (broken.empty() || broken.front().rfind("malformed", 0) != 0) {
       const auto& p = domain.patch;
-      const Quality q = seed >= kCurved
-                            ? measure(mesh)
-                            : measure(mesh, test::area_vector(p.points, p.triangles, p.quads).normalized());
+      const Quality q = seed >= kCurved ? measure(mesh)
+                                        : measure(mesh, test::area_vector(p.points, p.triangles, p.quads).normalized());
       report.quads = q.quads;
       report.interior = q.interior_nodes;
       report.irregular = q.irregular_nodes;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The laws of the engine, on random domains. Re-run one seed with: qmorph_campaign SEED SEED
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The generator: what it promises, and that it covers what it should.
 #include "support/domains.hpp"
 

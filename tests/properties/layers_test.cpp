@@ -3,11 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
 
 #include "qmorph/convert.hpp"
+#include "quality/directed_size.hpp"
 #include "support/domains.hpp"
 #include "support/draft.hpp"
 #include "support/invariants.hpp"
@@ -120,8 +122,8 @@ TEST_CASE("layers: nodes of layers stay where they are, in any position in space
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
     qmorph::test::Rng rng(~seed);
-    const qmorph::Patch moved = qmorph::test::moved(domain.patch, rng.between(0.1, 10), qmorph::test::random_rotation(rng),
-                                                    Eigen::Vector3d(1, 2, 3));
+    const qmorph::Patch moved = qmorph::test::moved(domain.patch, rng.between(0.1, 10),
+                                                    qmorph::test::random_rotation(rng), Eigen::Vector3d(1, 2, 3));
     const auto flat = qmorph::convert(domain.patch).report;
     const auto [mesh, report] = qmorph::convert(moved);
     CAPTURE(seed);
@@ -135,7 +137,38 @@ TEST_CASE("layers: nodes of layers stay where they are, in any position in space
   }
 }
 
-TEST_CASE("layers: one thread and two make the same bytes, and turned over or renumbered domains have nearly the same layers") {
+TEST_CASE("layers: on a cylinder they are as on the plane that is rolled up, and so is what is between them") {
+  std::size_t flat_quads = 0, quads = 0;
+  for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
+    const LayeredDomain domain = layered_domain(seed);
+    qmorph::Patch rolled = domain.patch;
+    for (Eigen::Vector3d& p : rolled.points) p = {std::sin(p.x()), p.y(), std::cos(p.x())};
+    const auto flat = qmorph::convert(domain.patch);
+    const auto [mesh, report] = qmorph::convert(rolled);
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    CHECK(report.layer_quads == flat.report.layer_quads);
+    CHECK(mesh.triangles.size() == flat.mesh.triangles.size());
+    std::size_t elsewhere = 0;
+    for (std::size_t q = 0; q < report.layer_quads; ++q)
+      for (Index v : mesh.quads[q])
+        elsewhere += mesh.source[v] != kNone && mesh.points[v] != rolled.points[mesh.source[v]];
+    CHECK(elsewhere == 0);
+    QuadMesh unrolled = mesh;
+    for (Eigen::Vector3d& p : unrolled.points) p = {std::atan2(p.x(), p.z()), p.y(), 0};
+    double least = 1;
+    for (std::size_t q = report.layer_quads; q < mesh.quads.size(); ++q)
+      least = std::min(least, smallest_sine(unrolled, mesh.quads[q]));
+    CHECK(least > 0.3);
+    flat_quads += flat.mesh.quads.size();
+    quads += mesh.quads.size();
+  }
+  CHECK(double(quads) == doctest::Approx(double(flat_quads)).epsilon(0.05));
+}
+
+TEST_CASE(
+    "layers: one thread and two make the same bytes, and turned over or renumbered domains have nearly the same "
+    "layers") {
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
     qmorph::Options options;
@@ -166,4 +199,35 @@ TEST_CASE("layers: ordinary random domains have hardly any") {
     layer_quads += qmorph::convert(patch, options).report.layer_quads;
   }
   CHECK(double(layer_quads) < 0.02 * double(triangles));  // strips and ribbons are among them
+}
+
+TEST_CASE("stretched triangles: what is no layer becomes quads of the same sizes, as stretched as the triangles") {
+  std::size_t flat_quads = 0, quads = 0, flat_kept = 0, kept = 0;
+  const auto is_kept = [](const qmorph::Patch& before, const QuadMesh& after) {
+    return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <=
+           qmorph::kLargestSizeRatio;
+  };
+  for (std::uint64_t seed = 0; seed < seeds(60); ++seed) {
+    const auto domain = qmorph::test::random_domain(seed);
+    qmorph::test::Rng rng(seed);
+    const double angle = rng.between(0, 3), stretch = std::pow(10, rng.between(1, 3));
+    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0);
+    qmorph::Patch patch = domain.patch;
+    for (Eigen::Vector3d& p : patch.points) p += (stretch - 1) * p.dot(along) * along;
+    qmorph::Options options;
+    options.retry_triangles = 0;
+    const auto flat = qmorph::convert(domain.patch, options).mesh;
+    const auto mesh = qmorph::convert(patch, options).mesh;
+    CAPTURE(seed);
+    CAPTURE(domain.kind);
+    CAPTURE(stretch);
+    const auto broken = qmorph::test::broken_invariants(patch, mesh);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    flat_quads += flat.quads.size();
+    quads += mesh.quads.size();
+    flat_kept += is_kept(domain.patch, flat);
+    kept += is_kept(patch, mesh);
+  }
+  CHECK(double(kept) > 0.9 * double(flat_kept));
+  CHECK(double(quads) == doctest::Approx(double(flat_quads)).epsilon(0.1));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The second opinion: each kind of spoilt result is found.
 
 #include "qmorph/check.hpp"

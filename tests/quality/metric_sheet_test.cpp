@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The metric sheet: one element per row, what each metric says about it. Values by hand or from the closed form beside
 // them.
 #include <doctest/doctest.h>

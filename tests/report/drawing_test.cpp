@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Drawings as files, and scenes as drawings.
 
 #include "report/drawing.hpp"

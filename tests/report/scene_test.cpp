@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What pages and pictures are made from.
 
 #include "report/scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The worst corners rise, and no corner falls under what the worst was.
 #include "smoothing/corner_energy.hpp"
 

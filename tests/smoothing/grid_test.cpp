@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh that is a grid gets the places of a grid.
 #include "smoothing/grid.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Nodes move, elements only get better.
 #include <doctest/doctest.h>
 
@@ -88,7 +89,8 @@ TEST_CASE("energy: first and second derivatives are those of the value, by finit
         const auto value = [&](const Vec2& p) {
           return delta > 0 ? star_at(mesh, v).regularised(p, delta) : energy_at(mesh, v, p).value;
         };
-        const Energy energy = delta > 0 ? star_at(mesh, v).regularised_with_derivatives(mesh.point(v), delta) : energy_around(mesh, v);
+        const Energy energy =
+            delta > 0 ? star_at(mesh, v).regularised_with_derivatives(mesh.point(v), delta) : energy_around(mesh, v);
         if (!energy.finite || energy.value > 200) continue;  // differences of steep functions say nothing
         const Vec2 p = mesh.point(v), x(1e-4, 0), y(0, 1e-4);
         const double step = 1e-4;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The thesis' smoothing: its metric, its rule of acceptance, and what both kinds of move may and may not do.
 #include "smoothing/thesis_smoothing.hpp"
 

@@ -11,8 +11,8 @@
 
 namespace qmorph::test {
 
-/// Triangles over a grid of `across` by `along` cells of the unit square, as `place` puts them into space; nodes inside are
-/// moved by up to `jitter` cells. Where `closed` says so, the last column (row) is the first one.
+/// Triangles over a grid of `across` by `along` cells of the unit square, as `place` puts them into space; nodes inside
+/// are moved by up to `jitter` cells. Where `closed` says so, the last column (row) is the first one.
 struct GridSurface {
   Index across = 10, along = 10;
   double jitter = 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Collects what a checker found: some lines of each kind, and how many more there were.
 

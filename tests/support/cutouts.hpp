@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Domains that are cut out of a mesh triangle by triangle, so that any topology occurs; and tiny ones.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Random domains for the engine, without Gmsh: every seed gives a valid patch, the same one everywhere.
 

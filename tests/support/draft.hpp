@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A test domain in the making: flat, in the plane, with the neighbourhoods that the spoilers need.
 

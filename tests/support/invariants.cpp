@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "support/invariants.hpp"
 
 #include <Eigen/Geometry>
@@ -277,9 +278,9 @@ void check_area(Case& c) {
 bool is_flat(const Patch& patch) {
   const Vector3d area = area_vector(patch.points, patch.triangles, patch.quads), normal = area.normalized();
   const double size = diagonal(patch.points);
-  return area.norm() > kFlat * size * size && std::all_of(patch.points.begin(), patch.points.end(), [&](const Vector3d& p) {
-    return std::abs(normal.dot(p - patch.points[0])) <= kFlat * size;
-  });
+  return area.norm() > kFlat * size * size &&
+         std::all_of(patch.points.begin(), patch.points.end(),
+                     [&](const Vector3d& p) { return std::abs(normal.dot(p - patch.points[0])) <= kFlat * size; });
 }
 
 }  // namespace

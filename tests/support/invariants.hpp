@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The invariants I1 to I6 of src/README.md for one surface, checked without a line of the engine.
 
@@ -20,7 +21,8 @@ namespace qmorph::test {
 ///   orientation  a corner that is not strictly convex, seen along the input's normal                          (I4)
 ///   parity       more than one triangle in a region, or one in an even region                                 (I5)
 ///   area         not the input's to 1e-9; a node off the plane                                                (I6)
-///   surface      of a curved patch, instead of the last two but parity: a node off the triangles, a corner that is turned over
+///   surface      of a curved patch, instead of the last two but parity: a node off the triangles, a corner that is
+///   turned over
 ///                against their normals near it and against the element's mean normal, another Euler characteristic
 std::vector<std::string> broken_invariants(const Patch& in, const QuadMesh& out);
 

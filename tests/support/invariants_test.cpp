@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The checker itself: a good result passes, and each rule is broken once on purpose.
 #include "support/invariants.hpp"
 

@@ -116,7 +116,8 @@ bool LayerBuilder::join(const Sketch& around, LayeredDomain& domain) {
   std::map<std::pair<double, double>, Index> here;
   for (Index i = 0; i < points_.size(); ++i) {
     const int node = sketch.node(points_[i]);
-    if (std::size_t(node) < nodes && here.try_emplace(key(sketch.place(node)), i).second) points_[i] = sketch.place(node);
+    if (std::size_t(node) < nodes && here.try_emplace(key(sketch.place(node)), i).second)
+      points_[i] = sketch.place(node);
   }
   const auto draft = around.build(rng_);
   if (!draft || worst_flatness(*draft) < kFlattest) return false;
@@ -154,8 +155,8 @@ std::optional<LayeredDomain> LayerBuilder::build(const Sketch* around) {
   return domain;
 }
 
-void add_wall(LayerBuilder& builder, const std::vector<Vector2d>& nodes, bool closed, const std::vector<double>& heights,
-              double fan_from, Rng& rng) {
+void add_wall(LayerBuilder& builder, const std::vector<Vector2d>& nodes, bool closed,
+              const std::vector<double>& heights, double fan_from, Rng& rng) {
   const std::size_t n = nodes.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vector2d &before = nodes[(i + n - 1) % n], &here = nodes[i], &after = nodes[(i + 1) % n];
@@ -164,7 +165,7 @@ void add_wall(LayerBuilder& builder, const std::vector<Vector2d>& nodes, bool cl
       continue;
     }
     const Vector2d first = left_of(before, here), second = left_of(here, after);
-    double turn = std::atan2(-cross(first, second), first.dot(second));  // to the right
+    double turn = std::atan2(-cross(first, second), first.dot(second));       // to the right
     if ((before - after).norm() < 1e-9 * (before - here).norm()) turn = kPi;  // round the end of a plate
     if (turn > fan_from) {
       const int wedges = std::max(2, int(std::ceil(turn / rng.between(0.4, 1.1))));

@@ -14,10 +14,11 @@ namespace qmorph::test {
 
 struct LayeredDomain {
   std::string kind;
-  Patch patch;                              ///< triangles
-  std::vector<std::array<Index, 4>> quads;  ///< of the layers, counter-clockwise; the wall edge is the first side of some
-  std::vector<Index> wall_quads;            ///< which of them stand on a wall
-  std::size_t tip_triangles = 0;            ///< in the first row of fans
+  Patch patch;  ///< triangles
+  std::vector<std::array<Index, 4>>
+      quads;                      ///< of the layers, counter-clockwise; the wall edge is the first side of some
+  std::vector<Index> wall_quads;  ///< which of them stand on a wall
+  std::size_t tip_triangles = 0;  ///< in the first row of fans
 };
 
 /// How the cells of layers become triangles.
@@ -30,11 +31,11 @@ class LayerBuilder {
   LayerBuilder(Rng& rng, double spacing) : rng_(rng), spacing_(spacing) {}
 
   Diagonals diagonals = Diagonals::rising;
-  double jitter = 0;  ///< share of the shortest distance to a neighbour
+  double jitter = 0;         ///< share of the shortest distance to a neighbour
   bool marks_walls = false;  ///< edges of the wall are constraints
 
-  /// A line from a point of the wall; nodes are `direction` times each of the heights away. Lines from one point are a fan.
-  /// `still`: it lies on a wall, too, and its nodes are not jittered.
+  /// A line from a point of the wall; nodes are `direction` times each of the heights away. Lines from one point are a
+  /// fan. `still`: it lies on a wall, too, and its nodes are not jittered.
   void add_line(const Eigen::Vector2d& foot, const Eigen::Vector2d& direction, const std::vector<double>& heights,
                 bool still = false);
   std::size_t lines() const { return lines_.size(); }
@@ -51,8 +52,8 @@ class LayerBuilder {
   std::vector<Eigen::Vector2d> inner_rim() const;
   std::vector<Eigen::Vector2d> whole_rim() const;
 
-  /// The layers, joined with what was drawn around them. Nothing if a cell has a corner of less than 20 or more than 160
-  /// degrees, if lines of the drawing cross, or if nothing is enclosed.
+  /// The layers, joined with what was drawn around them. Nothing if a cell has a corner of less than 20 or more than
+  /// 160 degrees, if lines of the drawing cross, or if nothing is enclosed.
   std::optional<LayeredDomain> build(const Sketch* around);
 
  private:
@@ -71,8 +72,8 @@ class LayerBuilder {
   std::vector<std::size_t> rows_;
 };
 
-/// Draws lines along one side of the nodes of a wall: a fan where the wall turns away by more than `fan_from` (radians),
-/// else one line in the middle between the perpendiculars.
+/// Draws lines along one side of the nodes of a wall: a fan where the wall turns away by more than `fan_from`
+/// (radians), else one line in the middle between the perpendiculars.
 void add_wall(LayerBuilder& builder, const std::vector<Eigen::Vector2d>& nodes, bool closed,
               const std::vector<double>& heights, double fan_from, Rng& rng);
 

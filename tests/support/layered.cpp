@@ -53,7 +53,8 @@ Points divided(const Points& corners, double spacing, bool closed) {
 void draw_loop(Sketch& sketch, const Points& places) {
   std::vector<int> nodes;
   for (const Vector2d& p : places) nodes.push_back(sketch.node(p));
-  for (std::size_t i = 0; i < nodes.size(); ++i) sketch.edge(nodes[i], nodes[(i + 1) % nodes.size()], SegmentKind::boundary);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    sketch.edge(nodes[i], nodes[(i + 1) % nodes.size()], SegmentKind::boundary);
 }
 
 void draw_path(Sketch& sketch, const Points& places) {
@@ -100,7 +101,9 @@ Points body_outline(Tools& t) {
     const double thick = t.rng.between(0.12, 0.35);
     const int n = std::max(5, int(1.2 / t.spacing));
     const auto at = [&](double u) {  // 0 at the nose, 1 at the sharp end
-      return std::pair(-0.6 + 1.2 * u, thick * 1.2 * (1.4845 * std::sqrt(u) - 0.63 * u - 1.758 * u * u + 1.4215 * u * u * u - 0.518 * u * u * u * u));
+      return std::pair(-0.6 + 1.2 * u, thick * 1.2 *
+                                           (1.4845 * std::sqrt(u) - 0.63 * u - 1.758 * u * u + 1.4215 * u * u * u -
+                                            0.518 * u * u * u * u));
     };
     const auto share = [&](int i) { return std::pow(double(i) / n, 1.6); };
     for (int i = n; i >= 0; --i) outline.emplace_back(at(share(i)).first, -at(share(i)).second);
@@ -117,7 +120,8 @@ Points body_outline(Tools& t) {
   } else if (choice == 3) {
     t.kind += " concave";
     const double in = t.rng.between(0.15, 0.25), out = t.rng.between(0.45, 0.6);
-    outline = divided({{in, in}, {out, in}, {out, -in}, {in, -in}, {in, -out}, {-in, -out}, {-in, in}}, t.spacing, true);
+    outline =
+        divided({{in, in}, {out, in}, {out, -in}, {in, -in}, {in, -out}, {-in, -out}, {-in, in}}, t.spacing, true);
   } else {
     t.kind += " plate";
     t.builder.marks_walls = true;
@@ -214,7 +218,8 @@ std::optional<LayeredDomain> corner(Tools& t) {
 
 /// Two walls that meet at a sharp angle; the rows of both end before, one after another.
 std::optional<LayeredDomain> wedge(Tools& t) {
-  const double half = t.rng.between(0.3, 0.6), free = 2 * t.spacing / std::sin(half), height = t.spacing / t.rng.between(3.5, 8);
+  const double half = t.rng.between(0.3, 0.6), free = 2 * t.spacing / std::sin(half),
+               height = t.spacing / t.rng.between(3.5, 8);
   const Vector2d tip(-0.9, 0), low(std::cos(half), -std::sin(half)), high(low.x(), -low.y());
   const int rows = t.rng.range(3, 6);
   std::vector<double> heights;
@@ -275,7 +280,8 @@ std::optional<LayeredDomain> ring(Tools& t) {
 std::optional<LayeredDomain> block(Tools& t) {
   const auto divide = [&](double end) {
     auto near = draw_heights(t.rng, t.spacing, t.spacing * t.rng.between(0.3, 2));
-    const auto far = t.rng.chance(0.5) ? draw_heights(t.rng, t.spacing, t.spacing * t.rng.between(0.3, 2)) : std::vector<double>{0};
+    const auto far =
+        t.rng.chance(0.5) ? draw_heights(t.rng, t.spacing, t.spacing * t.rng.between(0.3, 2)) : std::vector<double>{0};
     const double middle = end - near.back() - far.back(), start = near.back();
     const int pieces = int(std::lround(middle / t.spacing));
     for (int i = 1; i <= pieces; ++i) near.push_back(start + middle * i / pieces);
@@ -294,10 +300,9 @@ std::optional<LayeredDomain> block(Tools& t) {
 LayeredDomain layered_domain(std::uint64_t seed) {
   Rng rng(seed ^ 0x6c61796572u);
   using Kind = std::optional<LayeredDomain> (*)(Tools&);
-  constexpr std::pair<const char*, Kind> kKinds[] = {{"body", body},     {"body", body},   {"body", body},
-                                                     {"cavity", cavity}, {"channel", channel}, {"corner", corner},
-                                                     {"wedge", wedge},   {"strip", strip}, {"ring", ring},
-                                                     {"block", block}};
+  constexpr std::pair<const char*, Kind> kKinds[] = {
+      {"body", body},     {"body", body},   {"body", body},   {"cavity", cavity}, {"channel", channel},
+      {"corner", corner}, {"wedge", wedge}, {"strip", strip}, {"ring", ring},     {"block", block}};
   const auto& [name, draw] = kKinds[seed % std::size(kKinds)];
   while (true) {
     const double spacing = rng.between(0.08, 0.2);

@@ -5,8 +5,8 @@
 
 namespace qmorph::test {
 
-/// What of a curved result does not fit its input's triangles: "surface: ...". Elements where the input's own triangles are folded
-/// (normals of neighbours more than a right angle apart) may be what they are. Without a line of the engine.
+/// What of a curved result does not fit its input's triangles: "surface: ...". Elements where the input's own triangles
+/// are folded (normals of neighbours more than a right angle apart) may be what they are. Without a line of the engine.
 void check_on_surface(const Patch& in, const QuadMesh& out, Complaints& bad);
 
 /// Nodes less edges plus elements.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Domains that are drawn by their outlines: polygons with holes, wedges, rings, combs, channels, networks.
 

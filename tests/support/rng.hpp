@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Random numbers that are the same with every compiler and library: the standard's distributions are not.
 

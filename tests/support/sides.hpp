@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The sides of all elements of a mesh, sorted by edge: what the checkers look at.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Draws a domain by its lines, fills it with nodes of a given size, and triangulates it.
 

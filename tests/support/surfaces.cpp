@@ -34,11 +34,9 @@ std::vector<Vector2d> in_plane(const Patch& patch) {
 double longest_edge(const Patch& patch) {
   double longest = 0;
   for (const auto& t : patch.triangles)
-    for (int i = 0; i < 3; ++i)
-      longest = std::max(longest, (patch.points[t[i]] - patch.points[t[(i + 1) % 3]]).norm());
+    for (int i = 0; i < 3; ++i) longest = std::max(longest, (patch.points[t[i]] - patch.points[t[(i + 1) % 3]]).norm());
   for (const auto& q : patch.quads)
-    for (int i = 0; i < 4; ++i)
-      longest = std::max(longest, (patch.points[q[i]] - patch.points[q[(i + 1) % 4]]).norm());
+    for (int i = 0; i < 4; ++i) longest = std::max(longest, (patch.points[q[i]] - patch.points[q[(i + 1) % 4]]).norm());
   return longest;
 }
 
@@ -114,19 +112,6 @@ Patch grid(int rows, int columns, bool rows_close, bool columns_close, Rng& rng,
   return patch;
 }
 
-int count_for(double length, double size, int least) { return std::max(least, int(std::lround(length / size))); }
-
-void drop_unused(Patch& patch) {
-  std::vector<Index> row(patch.points.size(), kNone);
-  std::vector<Vector3d> points;
-  for (auto& t : patch.triangles)
-    for (Index& v : t) {
-      if (row[v] == kNone) row[v] = Index(points.size()), points.push_back(patch.points[v]);
-      v = row[v];
-    }
-  patch.points = std::move(points);
-}
-
 void add_noise(Patch& patch, double amount, Rng& rng) {
   const double edge = [&] {
     double sum = 0;
@@ -140,9 +125,15 @@ void add_noise(Patch& patch, double amount, Rng& rng) {
 /// Only triangles, and no lines: for surfaces that have nothing else.
 Patch random_closed(Rng& rng, std::string& kind) {
   switch (rng.range(0, 4)) {
-    case 0: kind = "sphere"; return sphere(rng.between(0.15, 0.5), rng);
-    case 1: kind = "torus"; return torus(1, rng.between(0.15, 0.6), rng.between(0.1, 0.2), rng);
-    case 2: kind = "double torus"; return double_torus(rng.between(0.12, 0.2), rng);
+    case 0:
+      kind = "sphere";
+      return sphere(rng.between(0.15, 0.5), rng);
+    case 1:
+      kind = "torus";
+      return torus(1, rng.between(0.15, 0.6), rng.between(0.1, 0.2), rng);
+    case 2:
+      kind = "double torus";
+      return double_torus(rng.between(0.12, 0.2), rng);
     case 3: {
       kind = "box";
       return box({rng.between(0.5, 2), rng.between(0.5, 2), rng.between(0.5, 2)}, rng.between(0.15, 0.4), rng);
@@ -156,13 +147,27 @@ Patch random_closed(Rng& rng, std::string& kind) {
 
 }  // namespace
 
+int count_for(double length, double size, int least) { return std::max(least, int(std::lround(length / size))); }
+
+void drop_unused(Patch& patch) {
+  std::vector<Index> row(patch.points.size(), kNone);
+  std::vector<Vector3d> points;
+  for (auto& t : patch.triangles)
+    for (Index& v : t) {
+      if (row[v] == kNone) row[v] = Index(points.size()), points.push_back(patch.points[v]);
+      v = row[v];
+    }
+  patch.points = std::move(points);
+}
+
 Patch rolled(const Patch& flat, double tip, Rng& rng) {
   const std::vector<Vector2d> points = in_plane(flat);
   const double extent = extent_of(points), edge = longest_edge(flat);
   if (tip == 0) {
     const double radius = std::max(extent / rng.between(0.5, 5), edge / kMostTurn), turn = rng.between(0, kPi);
     return bent(flat, [&](const Vector2d& p) {
-      const double x = std::cos(turn) * p.x() - std::sin(turn) * p.y(), y = std::sin(turn) * p.x() + std::cos(turn) * p.y();
+      const double x = std::cos(turn) * p.x() - std::sin(turn) * p.y(),
+                   y = std::sin(turn) * p.x() + std::cos(turn) * p.y();
       return Vector3d(radius * std::cos(x / radius), radius * std::sin(x / radius), y);
     });
   }
@@ -217,88 +222,14 @@ Patch sphere(double size, Rng& rng) {
 
 Patch torus(double large, double small, double size, Rng& rng) {
   const int around = count_for(2 * kPi * large, size, 8), across = 2 * count_for(kPi * small, size, 3);
-  return grid(2 * (around / 2), across, true, true, rng,
-              [&](double s, double t) {
-                const double u = 2 * kPi * s, v = 2 * kPi * t;
-                const double r = large + small * std::cos(v);
-                return Vector3d(r * std::cos(u), r * std::sin(u), small * std::sin(v));
-              },
-              0.2);
-}
-
-/// Two tori side by side, joined by a short tube between holes that face each other.
-Patch double_torus(double size, Rng& rng) {
-  const double large = 1, small = 0.4;
-  Patch patch;
-  std::array<std::vector<Index>, 2> rims;
-  for (int side = 0; side < 2; ++side) {
-    Patch one = torus(large, small, size, rng);
-    const double sign = side ? -1 : 1;
-    for (Vector3d& p : one.points) p = Vector3d(sign * (p.x() - 1.55), sign * p.y(), p.z());
-    // The hole is where the outer equator is nearest to the other torus.
-    const int across = 2 * count_for(kPi * small, size, 3), around = 2 * (count_for(2 * kPi * large, size, 8) / 2);
-    const int half = 1 + int(small / size / 2);
-    std::vector<char> gone(one.triangles.size(), 0);
-    const auto cell = [&](int i, int j) { return 2 * (((i + around) % around) * across + (j + across) % across); };
-    for (int i = -half; i < half; ++i)
-      for (int j = -half; j < half; ++j) gone[cell(i, j)] = gone[cell(i, j) + 1] = 1;
-    const Index first = Index(patch.points.size());
-    const auto node = [&](int i, int j) { return first + Index(((i + around) % around) * across + (j + across) % across); };
-    std::vector<Index>& rim = rims[side];
-    for (int k = -half; k < half; ++k) rim.push_back(node(-half, k));
-    for (int k = -half; k < half; ++k) rim.push_back(node(k, half));
-    for (int k = half; k > -half; --k) rim.push_back(node(half, k));
-    for (int k = half; k > -half; --k) rim.push_back(node(k, -half));
-    patch.points.insert(patch.points.end(), one.points.begin(), one.points.end());
-    for (std::size_t t = 0; t < one.triangles.size(); ++t)
-      if (!gone[t]) patch.triangles.push_back({one.triangles[t][0] + first, one.triangles[t][1] + first, one.triangles[t][2] + first});
-  }
-  // Rims run the same way as seen from their own torus; the second one is turned to face the first.
-  std::vector<Index>&first = rims[0], &second = rims[1];
-  std::reverse(second.begin(), second.end());
-  std::size_t shift = 0;
-  double least = 1e300;
-  for (std::size_t s = 0; s < second.size(); ++s) {
-    double sum = 0;
-    for (std::size_t k = 0; k < first.size(); ++k)
-      sum += (patch.points[first[k]] - patch.points[second[(k + s) % second.size()]]).norm();
-    if (sum < least) least = sum, shift = s;
-  }
-  const std::size_t n = first.size();
-  const int rings = count_for(least / double(n), size, 1);
-  std::vector<Index> before = first;
-  for (int ring = 1; ring <= rings; ++ring) {
-    std::vector<Index> here;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Index goal = second[(k + shift) % n];
-      if (ring == rings) {
-        here.push_back(goal);
-        continue;
-      }
-      here.push_back(Index(patch.points.size()));
-      const double share = double(ring) / rings;
-      patch.points.push_back((1 - share) * patch.points[first[k]] + share * patch.points[goal]);
-    }
-    for (std::size_t k = 0; k < n; ++k) {
-      const Index a = before[k], b = before[(k + 1) % n], c = here[(k + 1) % n], d = here[k];
-      patch.triangles.push_back({b, a, d});
-      patch.triangles.push_back({b, d, c});
-    }
-    before = here;
-  }
-  drop_unused(patch);
-  // The seam is smooth: nodes near it go to the middle of their neighbours.
-  std::vector<std::vector<Index>> neighbours(patch.points.size());
-  for (const auto& t : patch.triangles)
-    for (int i = 0; i < 3; ++i) neighbours[t[i]].push_back(t[(i + 1) % 3]);
-  for (int pass = 0; pass < 8; ++pass)
-    for (Index v = 0; v < patch.points.size(); ++v) {
-      if (std::abs(patch.points[v].x()) > 0.45) continue;
-      Vector3d sum = Vector3d::Zero();
-      for (Index w : neighbours[v]) sum += patch.points[w];
-      patch.points[v] = sum / double(neighbours[v].size());
-    }
-  return patch;
+  return grid(
+      2 * (around / 2), across, true, true, rng,
+      [&](double s, double t) {
+        const double u = 2 * kPi * s, v = 2 * kPi * t;
+        const double r = large + small * std::cos(v);
+        return Vector3d(r * std::cos(u), r * std::sin(u), small * std::sin(v));
+      },
+      0.2);
 }
 
 Patch box(const Vector3d& sides, double size, Rng& rng) {
@@ -308,13 +239,14 @@ Patch box(const Vector3d& sides, double size, Rng& rng) {
     for (int end = 0; end < 2; ++end) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
       const int rows = count_for(sides[u], size, 1), columns = count_for(sides[v], size, 1);
-      Patch face = grid(rows, columns, false, false, rng,
-                        [&](double s, double t) {
-                          Vector3d p;
-                          p[axis] = end * sides[axis], p[u] = s * sides[u], p[v] = t * sides[v];
-                          return p;
-                        },
-                        0.15);
+      Patch face = grid(
+          rows, columns, false, false, rng,
+          [&](double s, double t) {
+            Vector3d p;
+            p[axis] = end * sides[axis], p[u] = s * sides[u], p[v] = t * sides[v];
+            return p;
+          },
+          0.15);
       std::vector<Index> row;
       for (const Vector3d& p : face.points) {
         const std::array<long, 3> key{std::lround(p.x() * 1e7), std::lround(p.y() * 1e7), std::lround(p.z() * 1e7)};
@@ -339,22 +271,23 @@ Patch tube(double length, double radius, double size, double bend, Rng& rng) {
   for (int i = 0; i < rows; ++i) {
     if (i % 8 == 0) about_x = bend * rng.between(-0.4, 0.4), about_y = bend * rng.between(-0.4, 0.4);
     const double step = length / rows;
-    const Eigen::Matrix3d turn =
-        (Eigen::AngleAxisd(about_x * step / radius, Vector3d::UnitX()) * Eigen::AngleAxisd(about_y * step / radius, Vector3d::UnitY()))
-            .toRotationMatrix();
+    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(about_x * step / radius, Vector3d::UnitX()) *
+                                  Eigen::AngleAxisd(about_y * step / radius, Vector3d::UnitY()))
+                                     .toRotationMatrix();
     frame.push_back(frame.back() * turn);
     middle.push_back(middle.back() + step * frame.back().col(2));
   }
-  return grid(rows, columns, false, true, rng,
-              [&](double s, double t) {
-                const double at = std::clamp(s * rows, 0.0, double(rows));
-                const int i = std::min(rows - 1, int(at));
-                const double share = at - i, angle = 2 * kPi * t;
-                const Vector3d p = (1 - share) * middle[i] + share * middle[i + 1];
-                const Eigen::Matrix3d& f = share < 0.5 ? frame[i] : frame[i + 1];
-                return Vector3d(p + radius * (std::cos(angle) * f.col(0) + std::sin(angle) * f.col(1)));
-              },
-              0.15);
+  return grid(
+      rows, columns, false, true, rng,
+      [&](double s, double t) {
+        const double at = std::clamp(s * rows, 0.0, double(rows));
+        const int i = std::min(rows - 1, int(at));
+        const double share = at - i, angle = 2 * kPi * t;
+        const Vector3d p = (1 - share) * middle[i] + share * middle[i + 1];
+        const Eigen::Matrix3d& f = share < 0.5 ? frame[i] : frame[i + 1];
+        return Vector3d(p + radius * (std::cos(angle) * f.col(0) + std::sin(angle) * f.col(1)));
+      },
+      0.15);
 }
 
 Patch pierced(const Patch& patch, const Vector3d& centre, double radius) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A constrained Delaunay triangulation of a few hundred lattice points, exact, for making test domains.
 
@@ -32,9 +33,9 @@ struct Triangulation {
 /// Twice the area of abc, positive counter-clockwise.
 std::int64_t orient(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c);
 
-/// Triangulates all points, keeps what the SegmentKind::boundary segments enclose (even-odd rule: holes and islands need no seed).
-/// A segment through a point is cut there. Nothing if two points are equal, two segments cross, or the boundary is
-/// open.
+/// Triangulates all points, keeps what the SegmentKind::boundary segments enclose (even-odd rule: holes and islands
+/// need no seed). A segment through a point is cut there. Nothing if two points are equal, two segments cross, or the
+/// boundary is open.
 std::optional<Triangulation> triangulate(const std::vector<LatticePoint>& points, const std::vector<Segment>& segments);
 
 }  // namespace qmorph::test

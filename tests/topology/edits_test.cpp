@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Doublets, layers of quads around a set of faces, and what a set of faces is.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// One measurement in a process of its own: its peak memory is its own, and it can be ended when it takes too long.
 
@@ -24,7 +25,8 @@ struct Ran {
   double peak_bytes = 0;  ///< resident memory
 };
 
-/// Runs `task` in a child process; one that takes more than `limit` seconds of the processor is ended. What it throws goes to stderr.
+/// Runs `task` in a child process; one that takes more than `limit` seconds of the processor is ended. What it throws
+/// goes to stderr.
 /// \pre this process has one thread
 Ran run_apart(const std::function<Figures()>& task, double limit);
 

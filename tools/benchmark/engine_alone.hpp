@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// How the cost of the engine grows with the number of triangles: no Gmsh, one thread.
 

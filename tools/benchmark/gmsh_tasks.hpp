@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What is measured beside Gmsh, each for a process of its own (apart.hpp). Files are MSH 4.1, binary.
 
@@ -14,7 +15,8 @@ Figures write_triangles(const Triangulation& mesh, const std::string& path);
 /// Gmsh makes about so many triangles itself, in the domain of Kind::even (algorithm 6), and writes them.
 Figures gmsh_meshes(double wanted, const std::string& path);
 
-/// A file of triangles becomes a file of quads, by Gmsh's own recombination: `algorithm` 0 is the simple one, 1 Blossom.
+/// A file of triangles becomes a file of quads, by Gmsh's own recombination: `algorithm` 0 is the simple one, 1
+/// Blossom.
 Figures gmsh_recombines(const std::string& in, const std::string& out, int algorithm);
 
 /// The same by qmorph::gmsh::recombine().

@@ -41,7 +41,9 @@ Figures convert(const HardInput& input) {
     quality.add(mesh.points, mesh.triangles, mesh.quads, Eigen::Vector3d::UnitZ());
   }
   const qmorph::Quality q = quality.result();
-  std::printf(" %8zu %6zu %7.4f %6.3f %6.2f %6.2f %6.2f %6.2f", q.quads, q.triangles, q.scaled_jacobian_min, q.scaled_jacobian_mean, report.front_seconds, report.elimination_seconds, report.cleanup_seconds, report.smoothing_seconds);
+  std::printf(" %8zu %6zu %7.4f %6.3f %6.2f %6.2f %6.2f %6.2f", q.quads, q.triangles, q.scaled_jacobian_min,
+              q.scaled_jacobian_mean, report.front_seconds, report.elimination_seconds, report.cleanup_seconds,
+              report.smoothing_seconds);
   if (q.inverted > 0) std::printf(" %zu inverted", q.inverted);
   if (refused > 0) std::printf(" %zu refused: %.90s", refused, reason.c_str());
   std::printf("\n");
@@ -52,7 +54,8 @@ Figures convert(const HardInput& input) {
 }  // namespace
 
 bool time_hard_inputs(const std::string& word, double limit) {
-  std::printf("%-52s %8s %8s %7s %8s %6s %7s %6s\n", "", "triangles", "seconds", "us/tri", "quads", "left", "SJ min", "mean");
+  std::printf("%-52s %8s %8s %7s %8s %6s %7s %6s\n", "", "triangles", "seconds", "us/tri", "quads", "left", "SJ min",
+              "mean");
   bool all_quick = true;
   for (const HardInput& input : hard_inputs()) {
     if (input.name.find(word) == std::string::npos) continue;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // qmorph_bench: what a conversion costs, alone and beside Gmsh. Run it by tools/bench.
 
 #include <cstdio>
@@ -25,7 +26,8 @@ const char* const kUsage =
     "  surfaces (100); all three if none is named.\n"
     "  --once: one conversion each instead of the middle one of three\n"
     "  --beside-gmsh: the same triangles by Gmsh's recombination and by qmorph, as tables\n"
-    "  --hard: inputs that are hard to convert in time, those with WORD in their names; fails above 30 microseconds a triangle\n"
+    "  --hard: inputs that are hard to convert in time, those with WORD in their names; fails above 30 microseconds a "
+    "triangle\n"
     "  --limit SECONDS: of the processor, for each measurement (600)\n"
     "  --svg FILE: the tables as a picture\n"
     "  --write FILE.msh: no conversion; the triangles as a file, for other programs\n";

@@ -38,7 +38,8 @@ class Delaunay {
     for (const Vector2d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const Vector2d middle = (low + high) / 2;
     const double far = 1000 * (high - low).norm();
-    for (const Vector2d& way : {Vector2d(-1, -1), Vector2d(1, -1), Vector2d(0, 1)}) points_.push_back(middle + far * way);
+    for (const Vector2d& way : {Vector2d(-1, -1), Vector2d(1, -1), Vector2d(0, 1)})
+      points_.push_back(middle + far * way);
     const auto n = Index(points.size());
     add({n, n + 1, n + 2}, {kNone, kNone, kNone});
     for (Index v = 0; v < n; ++v) insert(v);
@@ -199,9 +200,8 @@ std::vector<InnerEdge> inner_edges(const Patch& patch) {
       const auto [low, high] = std::minmax(patch.triangles[t][i], patch.triangles[t][(i + 1) % 3]);
       sides.push_back({low, high, t, i});
     }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side& a, const Side& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
   std::vector<InnerEdge> edges;
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
     const Side &one = sides[i], &two = sides[i + 1];

@@ -12,11 +12,12 @@
 
 namespace benchmark {
 
+using Eigen::Vector2d;
 using qmorph::Index;
 using qmorph::Patch;
-using Eigen::Vector2d;
 
-/// Rows of nodes from bottom to top, each from left to right; the strips between them are closed like a zip, by the shorter edge.
+/// Rows of nodes from bottom to top, each from left to right; the strips between them are closed like a zip, by the
+/// shorter edge.
 Patch zip(const std::vector<std::vector<Vector2d>>& rows);
 
 /// A row of equal edges from x = 0 to `width`.
@@ -28,7 +29,8 @@ Patch grid(int columns, int rows);
 /// Equilateral triangles of side 1; inner nodes moved by up to `jitter`, each way.
 Patch lattice(int columns, int rows, double jitter, Random& random);
 
-/// The Delaunay triangulation of the points inside their convex hull, nearly: good enough where points are in general position.
+/// The Delaunay triangulation of the points inside their convex hull, nearly: good enough where points are in general
+/// position.
 Patch delaunay(const std::vector<Vector2d>& points);
 
 /// Moves all points.
@@ -46,8 +48,8 @@ std::vector<InnerEdge> inner_edges(const Patch& patch);
 /// Nodes on no edge with one triangle only.
 std::vector<Index> inner_nodes(const Patch& patch);
 
-/// Turns a share of the inner edges, one after another, where that leaves two triangles that are no flatter than `flattest` (height over
-/// longest side).
+/// Turns a share of the inner edges, one after another, where that leaves two triangles that are no flatter than
+/// `flattest` (height over longest side).
 void turn_edges(Patch& patch, double share, double flattest, Random& random);
 
 /// One patch for each number that `part_of` gives to a triangle, with the same points as far as they are used.

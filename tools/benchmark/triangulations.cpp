@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "triangulations.hpp"
 
 #include <Eigen/Geometry>
@@ -87,7 +88,8 @@ void triangulate_strips(Lattice& lattice, const std::vector<std::size_t>& row_be
   }
 }
 
-/// A node is on the boundary when its triangles do not close around it; the others are jittered, and those inside holes go.
+/// A node is on the boundary when its triangles do not close around it; the others are jittered, and those inside holes
+/// go.
 void finish_nodes(Lattice& lattice, Random& random) {
   std::vector<double> angle(lattice.nodes.size(), 0);
   for (const auto& t : lattice.triangles)

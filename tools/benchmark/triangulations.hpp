@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Triangulations of any size without a mesher: a jittered lattice of equilateral triangles with hexagonal holes, so that
-/// a million triangles take a second and every machine gets the same bits.
+/// Triangulations of any size without a mesher: a jittered lattice of equilateral triangles with hexagonal holes, so
+/// that a million triangles take a second and every machine gets the same bits.
 
 #include <Eigen/Core>
 #include <array>

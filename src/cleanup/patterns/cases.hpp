@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The cases of cleanup that are recognised by valences, as data [thesis, appendix, tables 1 to 3; after Kinney].
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Compositions: what the thesis (3.6.2) writes a replacement pattern in. A dart goes from element to element by the
 /// alpha-iterators 0, 1, 2 and changes the mesh where it is by the codes 3 to 9 of table 3.1.
@@ -32,10 +33,10 @@ inline Index node_of(const kernel::Mesh& mesh, const Dart& d) {
 ///   6  fill_4: the hexagon becomes four quads around two new nodes, one joined to v and to the node beside w in the
 ///      element, the other to w and to the node beside v in the neighbour. v and w keep their numbers.
 ///   7  a new node in the middle of the element, joined to v and to the opposite node
-///   8  the edge moves on clockwise inside the hexagon          9  ... counter-clockwise
-/// The dart follows: after 3 and 4 it is on the edge that was left of v-w, beyond it, at the merged node; after 5 and 6
-/// on the edge from v to the new node; after 8 and 9 on the edge that moved, at the end that was v. It stays on its side.
-/// `mirrored` exchanges 8 and 9: the composition of the mirror image.
+///   8  the edge moves on clockwise inside the hexagon          9  ... counter-clockwise The dart follows: after 3 and
+///   4 it is on the edge that was left of v-w, beyond it, at the merged node; after 5 and 6 on the edge from v to the
+///   new node; after 8 and 9 on the edge that moved, at the end that was v. It stays on its side. `mirrored` exchanges
+///   8 and 9: the composition of the mirror image.
 bool run(kernel::Mesh& mesh, Dart& dart, std::string_view composition, bool mirrored, std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

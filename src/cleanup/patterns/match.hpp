@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Finds the cases of the tables around a node.
 
@@ -37,8 +38,8 @@ struct Pattern {
   std::vector<Entry> ring;
 };
 
-/// The nodes around a node and their valences, counter-clockwise or, `mirrored`, clockwise; `darts` are the places where
-/// a composition that begins at ring[2 * i] starts.
+/// The nodes around a node and their valences, counter-clockwise or, `mirrored`, clockwise; `darts` are the places
+/// where a composition that begins at ring[2 * i] starts.
 struct Ring {
   Index centre;
   int valence;

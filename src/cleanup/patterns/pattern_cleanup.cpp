@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/patterns/pattern_cleanup.hpp"
 
 #include <algorithm>
@@ -321,21 +322,21 @@ std::size_t eliminate_chevrons(Mesh& mesh, const CleanupOptions& options, const 
 }
 
 std::size_t clean_up_connectivity(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
-                               const kernel::Budget& budget) {
+                                  const kernel::Budget& budget) {
   Rounds rounds(mesh, options, smoothing, budget);
   if (options.connectivity_cases) rounds.run_connectivity();
   return rounds.changes();
 }
 
 std::size_t clean_up_boundary(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
-                               const kernel::Budget& budget) {
+                              const kernel::Budget& budget) {
   Rounds rounds(mesh, options, smoothing, budget);
   rounds.run_boundary();
   return rounds.changes();
 }
 
 std::size_t clean_up_shape(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
-                               const kernel::Budget& budget) {
+                           const kernel::Budget& budget) {
   Rounds rounds(mesh, options, smoothing, budget);
   if (options.shape_cases) rounds.run_shape();
   return rounds.changes();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Where a large region of triangles is cut, so that its parts can be made into quads side by side.
 
@@ -18,9 +19,10 @@ struct Division {
   }
 };
 
-/// Cuts the mesh into parts of about `triangles` triangles: along lines that are short and end squarely on the boundary.
-/// The edges along a line are straightened, for which free nodes near it move (no triangle becomes bad), and some are
-/// split, so that one part at most has an odd number of sides. A mesh of less than 1.5 times `triangles` is one part.
+/// Cuts the mesh into parts of about `triangles` triangles: along lines that are short and end squarely on the
+/// boundary. The edges along a line are straightened, for which free nodes near it move (no triangle becomes bad), and
+/// some are split, so that one part at most has an odd number of sides. A mesh of less than 1.5 times `triangles` is
+/// one part.
 /// Cost: linear.
 Division divide(kernel::Mesh& mesh, std::size_t triangles);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/parts/interface.hpp"
 
 #include <algorithm>
@@ -18,8 +19,8 @@ constexpr int kRings = 2;  ///< around an interface that make room
 constexpr double kFloor = 0.35;
 constexpr int kHalvings = 3;
 
-/// Where the interface through v is straight; v itself if that cannot be said. Where three interfaces or more meet, the two
-/// that are most nearly opposite are one line.
+/// Where the interface through v is straight; v itself if that cannot be said. Where three interfaces or more meet, the
+/// two that are most nearly opposite are one line.
 Vec2 straight_position(const Mesh& mesh, const Division& division, Index v) {
   const Vec2& p = mesh.point(v);
   std::vector<Vec2> ends;

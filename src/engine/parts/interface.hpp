@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Interfaces between parts are boundaries for a while: smooth ones with an even number of sides make good quads.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/parts/join.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 
 using kernel::Mesh;
 
-/// Gives the vertices of parts numbers: one for each fan of the part's triangles at a node. Parts may be worked on side by side.
+/// Gives the vertices of parts numbers: one for each fan of the part's triangles at a node. Parts may be worked on side
+/// by side.
 class Fans {
  public:
   Fans(const Mesh& mesh, const Division& division)
@@ -68,7 +70,8 @@ Region region_of(const Mesh& mesh, Fans& fans, const std::vector<Index>& faces) 
   return region;
 }
 
-/// The order of the faces by their lowest corner: what lies close together in the points does so in the faces. A counting sort.
+/// The order of the faces by their lowest corner: what lies close together in the points does so in the faces. A
+/// counting sort.
 std::vector<Index> order_by_lowest(const std::vector<std::array<Index, 4>>& faces, std::size_t points) {
   std::vector<Index> start(points + 1, 0), order(faces.size());
   const auto lowest = [](const auto& face) { return *std::min_element(face.begin(), face.end()); };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Parts of a divided mesh as regions of their own, and the whole from what they have become.
 
@@ -30,8 +31,8 @@ struct Whole {
   Whole(const kernel::Mesh& mesh, const Division& division);
 };
 
-/// The parts' elements as one mesh. Vertices of the divided mesh keep their numbers. A node on an interface may have two
-/// neighbours only.
+/// The parts' elements as one mesh. Vertices of the divided mesh keep their numbers. A node on an interface may have
+/// two neighbours only.
 kernel::Mesh join(const Whole& whole, const std::vector<PartElements>& parts);
 
 }  // namespace qmorph

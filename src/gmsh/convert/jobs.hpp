@@ -13,8 +13,8 @@
 
 namespace qmorph::adapter {
 
-/// What is worked on as one: a surface, or surfaces that are periodic with one another, of which the first is converted and the
-/// others are its images.
+/// What is worked on as one: a surface, or surfaces that are periodic with one another, of which the first is converted
+/// and the others are its images.
 struct Job {
   const PeriodicFamily* family = nullptr;
   std::vector<std::uint32_t> entities{};

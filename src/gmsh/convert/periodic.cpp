@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/convert/periodic.hpp"
 
 #include <fmt/format.h>
@@ -5,8 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "gmsh/model/high_order.hpp"
 #include "kernel/sort_unique.hpp"
 #include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
@@ -172,6 +175,26 @@ std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurf
     results.push_back(std::move(result));
   }
   return results;
+}
+
+void restore_periodicity(const ModelMesh& mesh, const std::vector<ConvertedSurface>& converted,
+                         const std::vector<PartTags>& part_tags, std::vector<PeriodicLink>& links) {
+  std::map<int, std::size_t> index;
+  for (std::size_t i = 0; i < converted.size(); ++i) index[mesh.entities[converted[i].surface.entity].tag] = i;
+  if (index.empty()) return;
+  std::optional<ModelMesh> now;
+  for (PeriodicLink& link : links) {
+    const auto slave = index.find(link.slave), master = index.find(link.master);
+    if (slave == index.end() || master == index.end()) continue;
+    link.nodes.clear();
+    for (std::size_t p = 0; p < part_tags[slave->second].size(); ++p)
+      for (std::size_t i = 0; i < part_tags[slave->second][p].size(); ++i)
+        link.nodes.emplace_back(part_tags[slave->second][p][i], part_tags[master->second][p][i]);
+    if (order_of(mesh.entities[converted[slave->second].surface.entity]) == 1) continue;
+    if (!now) now = read_model_mesh();
+    add_high_order_pairs(*now, link);
+  }
+  restore_links(links);
 }
 
 }  // namespace qmorph::adapter

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Surfaces that are images of one another. The image of a converted surface is its copy, so that the pair stays a pair.
+/// Surfaces that are images of one another. The image of a converted surface is its copy, so that the pair stays a
+/// pair.
 
 #include <cstddef>
 #include <string>
@@ -29,5 +31,11 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
 /// The master's result, moved to the slave. \pre match_parts
 std::vector<QuadMesh> copy_results(const PeriodicLink& link, const ConvertedSurface& master, const SurfaceMesh& slave,
                                    const ModelMesh& mesh);
+
+/// Restores the links of a model whose surfaces have been replaced: pairs of new nodes where both surfaces were
+/// converted, the old ones where a surface had to be put back as it was.
+/// \param mesh the model before \param part_tags of replace_surfaces()
+void restore_periodicity(const ModelMesh& mesh, const std::vector<ConvertedSurface>& converted,
+                         const std::vector<PartTags>& part_tags, std::vector<PeriodicLink>& links);
 
 }  // namespace qmorph::adapter

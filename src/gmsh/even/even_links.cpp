@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/even/even_links.hpp"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ struct SurfaceSide {
   int order;       ///< of its element
 };
 
-std::vector<SurfaceSide> sides_of_surfaces(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces, Index& triangles) {
+std::vector<SurfaceSide> sides_of_surfaces(const ModelMesh& mesh, const std::vector<std::uint32_t>& surfaces,
+                                           Index& triangles) {
   std::vector<SurfaceSide> sides;
   triangles = 0;
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The regions of a model's surfaces as a graph: who is odd, and which edges of the mesh may be split.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/even/split_edges.hpp"
 
 #include <fmt/format.h>
@@ -147,8 +148,8 @@ void EdgeSplitter::split_lines(EntityMesh& entity) {
   }
 }
 
-/// Cuts a triangle from the middle of a side to the corner opposite. Nodes are told apart by their places in the triangle,
-/// in steps of half of those between its nodes.
+/// Cuts a triangle from the middle of a side to the corner opposite. Nodes are told apart by their places in the
+/// triangle, in steps of half of those between its nodes.
 std::pair<EdgeSplitter::Tags, EdgeSplitter::Tags> EdgeSplitter::cut(const ElementBlock& block, const Tags& triangle,
                                                                     std::size_t side, std::uint32_t owner) {
   using Place = std::array<int, 2>;

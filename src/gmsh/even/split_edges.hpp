@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Nodes in the middle of edges of a mesh, and the lines and triangles beside them cut in two.
 

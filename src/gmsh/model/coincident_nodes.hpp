@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Nodes of surfaces that lie where other nodes lie: elements on the one side know nothing of those on the other.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Elements of second and higher order. The engine sees their corners; what lies between is kept where the edge was
 /// there before, and made where it is new. Surfaces are planar, so that straight is right for what is new.
@@ -14,8 +15,8 @@ namespace qmorph::adapter {
 /// \throws SurfaceError if it has elements that are neither triangles nor quads, or of several orders
 int order_of(const EntityMesh& surface);
 
-/// Makes the elements of a converted surface of the order that it had before: quads with inner nodes (9 for order 2) unless
-/// the surface had quads without (8), or `incomplete`. Edges of the input whose ends have not moved keep their
+/// Makes the elements of a converted surface of the order that it had before: quads with inner nodes (9 for order 2)
+/// unless the surface had quads without (8), or `incomplete`. Edges of the input whose ends have not moved keep their
 /// nodes, quads of the input keep all of theirs.
 /// \param surface linear, with all nodes that it owns; gets more
 /// \param next_tag for new nodes

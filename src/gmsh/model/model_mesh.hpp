@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// A copy of everything that the current Gmsh model's mesh is made of, and who uses what. Reading all of it once
 /// is cheaper than asking Gmsh again, and it is what is put back where Gmsh has to forget.

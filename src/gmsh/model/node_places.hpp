@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where the nodes are. Whenever a file is read, newer versions of Gmsh move the nodes of what is periodic to the image of
-/// their masters, and the boundary of a surface is not ours, nor Gmsh's, to move.
+/// Where the nodes are. Whenever a file is read, newer versions of Gmsh move the nodes of what is periodic to the image
+/// of their masters, and the boundary of a surface is not ours, nor Gmsh's, to move.
 
 #include <cstddef>
 #include <vector>

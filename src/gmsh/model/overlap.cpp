@@ -98,8 +98,8 @@ std::vector<std::vector<Sheet>> group_by_plane(const std::vector<Sheet>& sheets,
   return groups;
 }
 
-/// Edges with one element. Inside a mesh each neighbour of a node comes twice, once on either side of the edge between them, and the
-/// numbers of all cancel; so edges have to be compared only where they do not.
+/// Edges with one element. Inside a mesh each neighbour of a node comes twice, once on either side of the edge between
+/// them, and the numbers of all cancel; so edges have to be compared only where they do not.
 std::vector<OutlineEdge> find_outline(const ModelMesh& mesh, const std::vector<Sheet>& group,
                                       std::vector<Index>& neighbours) {
   struct Candidate {
@@ -148,8 +148,8 @@ std::vector<OutlineEdge> find_outline(const ModelMesh& mesh, const std::vector<S
   return outline;
 }
 
-/// How often the plane is covered just inside each edge of the outline: by the edges above, of which those that run to the left
-/// have the inside below them. \return an edge where it is more than once
+/// How often the plane is covered just inside each edge of the outline: by the edges above, of which those that run to
+/// the left have the inside below them. \return an edge where it is more than once
 std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& outline) {
   struct Sample {
     Vec2 place;
@@ -165,7 +165,8 @@ std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& out
                    [](const Sample& s, const Sample& t) { return s.place.x() < t.place.x(); });
   std::vector<const OutlineEdge*> active;
   std::size_t budget = kBudget * outline.size(), next = 0;
-  for (const auto& [place, edge] : samples) {
+  for (const Sample& sample : samples) {
+    const Vec2& place = sample.place;
     for (; next < outline.size() && outline[next].left() <= place.x(); ++next) active.push_back(&outline[next]);
     std::erase_if(active, [&](const OutlineEdge* above) { return above->right() <= place.x(); });
     if (active.size() > budget) return std::nullopt;
@@ -176,7 +177,7 @@ std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& out
       const int side = orientation(above->a, above->b, place);
       if (side == (leftward ? 1 : -1)) covers += leftward ? 1 : -1;
     }
-    if (covers > 1) return *edge;
+    if (covers > 1) return *sample.edge;
   }
   return std::nullopt;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Surfaces that lie over one another, or over themselves.
 
@@ -13,8 +14,8 @@ struct Overlap {
   Eigen::Vector3d where = Eigen::Vector3d::Zero();
 };
 
-/// Looks at planar surfaces, those in one plane together. Finds what covers a part of the plane twice where the outline of the one
-/// runs through the other, or through nothing at all; not two sheets with the same outline nodes.
+/// Looks at planar surfaces, those in one plane together. Finds what covers a part of the plane twice where the outline
+/// of the one runs through the other, or through nothing at all; not two sheets with the same outline nodes.
 /// Cost: linear, and the length of the outline times the number of its edges above one another, which a budget limits.
 std::optional<Overlap> find_overlap(const ModelMesh& mesh);
 

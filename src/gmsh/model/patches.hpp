@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// From the mesh of a model to what the engine takes.
 
@@ -24,7 +25,7 @@ struct SurfaceMesh {
   std::uint32_t entity = 0;  ///< index into ModelMesh::entities
   std::vector<SurfacePart> parts;
   std::vector<std::string> warnings;
-  std::string edge_of_many;  ///< where more than two elements meet at an edge, or empty
+  std::string edge_of_many;   ///< where more than two elements meet at an edge, or empty
   bool quads_may_go = false;  ///< the quads of the input are not kept: what they are made into takes their tags
 };
 
@@ -51,10 +52,9 @@ std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mes
 
 /// Reads one surface: parts, constraints, fixed nodes. Triangles that are oriented against the others
 /// of their part are turned, with a warning.
-/// \throws SurfaceError if it has elements that are not triangles and quads of one order, bounds a volume with elements,
-///         is not a manifold, has no orientation, has a node at no place (NaN), or refers to a
-///         node that does not exist.
-/// `local` is scratch: as long as the mesh has nodes, all kNone before and after.
+/// \throws SurfaceError if it has elements that are not triangles and quads of one order, bounds a volume with
+///         elements, is not a manifold, has no orientation, has a node at no place (NaN), or refers to a node that does
+///         not exist. `local` is scratch: as long as the mesh has nodes, all kNone before and after.
 SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
                          std::vector<Index>& local);
 

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Gives entities of the current model other nodes and elements. Gmsh has no call for that: whatever points to what goes has
-/// to go and come back with it.
+/// Gives entities of the current model other nodes and elements. Gmsh has no call for that: whatever points to what
+/// goes has to go and come back with it.
 
 #include <cstdint>
 #include <vector>
@@ -15,8 +16,8 @@ struct Replacement {
   const EntityMesh* fresh = nullptr;  ///< may be that entity itself, changed since the model was read
 };
 
-/// Entities that lose and get back their mesh when these get another, themselves among them, ascending: clearing frees nodes,
-/// whoever else points to them, and an entity can be cleared only with all that lies on it.
+/// Entities that lose and get back their mesh when these get another, themselves among them, ascending: clearing frees
+/// nodes, whoever else points to them, and an entity can be cleared only with all that lies on it.
 /// \throws InputError if a point or a curve would have to go for the sake of a surface
 std::vector<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::vector<std::uint32_t>& changed);
 

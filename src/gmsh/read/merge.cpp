@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/read/merge.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@
 #include "gmsh/model/periodic_links.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/read/guest_model.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
 #include "gmsh/read/readable.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
@@ -268,10 +269,10 @@ void check_places(const std::string& path, const std::vector<Place>& places) {
     for (std::size_t i = 0; i < tags.size(); ++i) {
       const Eigen::Vector3d p = Eigen::Vector3d::Map(&xyz[3 * i]);
       if (place.box.exteriorDistance(p) > kSlack * whole.diagonal().norm())
-        throw InputError(
-            fmt::format("{} is not a mesh of the geometry that it is merged with: node {} at {} is not on the entity {} "
-                        "of dimension {}; {}",
-                        path, tags[i], describe(p), place.tag, place.dim, kMeshItFirst));
+        throw InputError(fmt::format(
+            "{} is not a mesh of the geometry that it is merged with: node {} at {} is not on the entity {} "
+            "of dimension {}; {}",
+            path, tags[i], describe(p), place.tag, place.dim, kMeshItFirst));
     }
   }
 }
@@ -317,8 +318,11 @@ void check_geometry_kept() {
   for (const auto& [dim, tag] : shapes)
     if (is_discrete(dim, tag))
       throw InputError(fmt::format("the geometry's {} {} has the number of one that comes as a mesh; {}",
-                                   dim == 2 ? "surface" : dim == 1 ? "curve" : dim == 0 ? "point" : "volume", tag,
-                                   kMeshItFirst));
+                                   dim == 2   ? "surface"
+                                   : dim == 1 ? "curve"
+                                   : dim == 0 ? "point"
+                                              : "volume",
+                                   tag, kMeshItFirst));
 }
 
 }  // namespace qmorph::adapter

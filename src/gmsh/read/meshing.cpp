@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/read/meshing.hpp"
 
 #include <fmt/format.h>
@@ -94,8 +95,8 @@ StageLog complaints_about(int surface, const StageLog& log) {
   return about;
 }
 
-/// A surface that cannot be meshed is an error to some versions of Gmsh and a warning to others.
-/// The surface that Compound Surface makes hands its elements to those that it is made of, to narrow ones sometimes none.
+/// A surface that cannot be meshed is an error to some versions of Gmsh and a warning to others. The surface that
+/// Compound Surface makes hands its elements to those that it is made of, to narrow ones sometimes none.
 /// \return what is without elements for that reason
 std::vector<std::string> check_every_surface_has_elements(const StageLog& log) {
   bool compound = false;
@@ -131,9 +132,10 @@ void check_common_curves(const MeshingTask& task) {
   for (int surface : task.bare)
     for_each_curve(surface, [&](int curve) {
       if (const auto kept = of_kept.find(curve); kept != of_kept.end())
-        throw InputError(fmt::format("surface {} has a mesh, surface {} beside it has none, and the curve {} between "
-                                     "them has no line elements; mesh all of the geometry",
-                                     kept->second, surface, curve));
+        throw InputError(
+            fmt::format("surface {} has a mesh, surface {} beside it has none, and the curve {} between "
+                        "them has no line elements; mesh all of the geometry",
+                        kept->second, surface, curve));
     });
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Gmsh's mesher, asked in a way that suits Q-Morph.
 
@@ -8,9 +9,9 @@ namespace qmorph::adapter {
 
 /// What of a model Gmsh would mesh, and what has elements already.
 struct MeshingTask {
-  std::vector<int> bare;    ///< surfaces of a geometry without elements
-  std::vector<int> facets;  ///< surfaces made of facets (CreateGeometry): their elements are the geometry
-  std::vector<int> kept;    ///< surfaces whose elements stay
+  std::vector<int> bare;          ///< surfaces of a geometry without elements
+  std::vector<int> facets;        ///< surfaces made of facets (CreateGeometry): their elements are the geometry
+  std::vector<int> kept;          ///< surfaces whose elements stay
   bool kept_on_geometry = false;  ///< some of `kept` would be meshed again if Gmsh were not told
 
   bool is_empty() const { return bare.empty() && facets.empty(); }
@@ -27,9 +28,9 @@ std::vector<std::string> mesh_surfaces(const MeshingTask& task);
 /// Removes the elements of all volumes, so that their surfaces may become quads. \return true if there were any
 bool drop_volumes();
 
-/// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra. Gmsh 4.8 makes
-/// pyramids in one session of a process only: after a finalize() and a second initialize() it crashes.
-/// Volumes without a geometry, too, where the model says what surfaces they have.
+/// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra. Gmsh 4.8
+/// makes pyramids in one session of a process only: after a finalize() and a second initialize() it crashes. Volumes
+/// without a geometry, too, where the model says what surfaces they have.
 /// \param keep_numbers of nodes and elements that are there
 /// \throws InputError; BrokenModel with Gmsh's own words
 /// \return Gmsh's warnings

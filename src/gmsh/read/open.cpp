@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/read/open.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 #include "gmsh/read/guest_model.hpp"
 #include "gmsh/read/merge.hpp"
 #include "gmsh/read/meshing.hpp"
-#include "gmsh/read/msh2_text.hpp"
+#include "gmsh/read/msh/msh2_text.hpp"
 #include "gmsh/read/readable.hpp"
 #include "gmsh/read/sources.hpp"
 #include "gmsh/session/compat.hpp"
@@ -138,7 +139,8 @@ void check_not_empty(const std::string& path) {
   ::gmsh::model::getEntities(entities);
   ::gmsh::view::getTags(views);
   if (entities.empty() && views.empty())
-    throw InputError(fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
+    throw InputError(
+        fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
 }
 
 /// What -bgm does in Gmsh's own command.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// From a file to a model with triangles.
 
@@ -6,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "gmsh/read/msh2_groups.hpp"
-#include "gmsh/read/msh_file.hpp"
+#include "gmsh/read/msh/file.hpp"
+#include "gmsh/read/msh/msh2_groups.hpp"
 #include "gmsh/views/views.hpp"
 
 namespace qmorph::adapter {
 
-/// Gmsh's 2D algorithm where the user has no wish: Frontal-Delaunay. Over the geometries of geo/ the mean scaled Jacobian
-/// of the quads is 0.970 to 0.973 and the irregular share 5.5 to 6.4 % with 6, 5, 1, 8 and 9; 6 and 5 are the
+/// Gmsh's 2D algorithm where the user has no wish: Frontal-Delaunay. Over the geometries of geo/ the mean scaled
+/// Jacobian of the quads is 0.970 to 0.973 and the irregular share 5.5 to 6.4 % with 6, 5, 1, 8 and 9; 6 and 5 are the
 /// fastest, and 9 (pack), best by a hair on average, has the worst element by far (0.06 against 0.39).
 inline constexpr int kDefaultAlgorithm = 6;
 
@@ -34,15 +35,15 @@ struct OpenedModel {
 struct OpenOptions {
   std::vector<std::string> merged{};  ///< further files, merged after the first and before anything is meshed
   std::string background{};           ///< file with a view that says what sizes elements have, or empty
-  bool no_meshing = false;          ///< surfaces without elements stay so
-  bool ignore_periodicity = false;  ///< of the file
+  bool no_meshing = false;            ///< surfaces without elements stay so
+  bool ignore_periodicity = false;    ///< of the file
   std::function<void()> when_read{};  ///< called once all is read and before Gmsh meshes; may be empty
 };
 
-/// Opens a file with Gmsh and meshes surfaces that have a geometry and no elements yet, or whose geometry is made of facets:
-/// curves with an even number of segments first, so that surfaces can become quads without a triangle left; then surfaces
-/// with triangles. A .msh file with facets that have a geometry is taken as it is.
-/// Surfaces that the script wants transfinite or extruded *and* recombined come as quads.
+/// Opens a file with Gmsh and meshes surfaces that have a geometry and no elements yet, or whose geometry is made of
+/// facets: curves with an even number of segments first, so that surfaces can become quads without a triangle left;
+/// then surfaces with triangles. A .msh file with facets that have a geometry is taken as it is. Surfaces that the
+/// script wants transfinite or extruded *and* recombined come as quads.
 /// \throws InputError with Gmsh's own words if the file cannot be opened, understood, or meshed.
 OpenedModel open_model(const std::string& path, const OpenOptions& options = {});
 

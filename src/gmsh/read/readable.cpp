@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/read/readable.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 33> kMeshExtensions = {
-    ".bdf",   ".celum", ".cgns",  ".dat",   ".diff", ".inp", ".ir3", ".key",  ".m",   ".mail", ".med",
-    ".mesh",  ".mmed",  ".msh",   ".msh1",  ".msh2", ".msh22", ".msh3", ".msh4", ".msh40", ".msh41", ".nas",
-    ".neu",   ".obj",   ".off",   ".p3d",   ".ply",  ".ply2", ".rmed", ".stl", ".su2", ".unv", ".vtk"};
-constexpr std::array<std::string_view, 9> kCadExtensions = {".brep", ".brp", ".iges", ".igs", ".step",
-                                                           ".stp",  ".x_t", ".xmt_txt", ".xmt_bin"};
+    ".bdf",  ".celum", ".cgns", ".dat",  ".diff", ".inp",   ".ir3",  ".key",  ".m",     ".mail",  ".med",
+    ".mesh", ".mmed",  ".msh",  ".msh1", ".msh2", ".msh22", ".msh3", ".msh4", ".msh40", ".msh41", ".nas",
+    ".neu",  ".obj",   ".off",  ".p3d",  ".ply",  ".ply2",  ".rmed", ".stl",  ".su2",   ".unv",   ".vtk"};
+constexpr std::array<std::string_view, 9> kCadExtensions = {".brep", ".brp", ".iges",    ".igs",    ".step",
+                                                            ".stp",  ".x_t", ".xmt_txt", ".xmt_bin"};
 
 bool has_extension_of(const std::string& path, const auto& extensions) {
   std::string extension = fs::path(path).extension().string();
@@ -52,7 +53,8 @@ void check_readable(const std::string& path) {
   if (!fs::exists(status)) throw InputError(fmt::format("{}: no such file", path));
   if (fs::is_directory(status)) throw InputError(fmt::format("{} is a directory", path));
   if (!fs::is_regular_file(status))  // it has no size, and perhaps no end
-    throw InputError(fmt::format("{} is not a regular file; what comes through a pipe is read from standard input (-)", path));
+    throw InputError(
+        fmt::format("{} is not a regular file; what comes through a pipe is read from standard input (-)", path));
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(fmt::format("{} cannot be read", path));
   if (fs::file_size(path, error) == 0) throw InputError(fmt::format("{} is empty", path));

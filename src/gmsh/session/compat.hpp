@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What differs between the Gmsh versions that this code compiles against (4.8 to the newest). Only files
 /// of src/gmsh include this, and only they include gmsh.h.

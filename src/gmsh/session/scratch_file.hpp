@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Files for Gmsh alone, in the directory for temporary files.
 

@@ -1,8 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/session/session.hpp"
 
+#include <stdlib.h>
+
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "gmsh/session/compat.hpp"
@@ -28,6 +35,27 @@ std::string get_last_error() {
   return error;
 }
 
+/// Gmsh's window library makes a directory in the user's one when it starts, window or not. Where Gmsh has a place of
+/// its own, it is to be there.
+class HomeOfGmsh {
+ public:
+  HomeOfGmsh() {
+    const char* home = std::getenv("HOME");
+    const char* gmsh = std::getenv("GMSH_HOME");
+    if (!home || !gmsh) return;
+    before_ = home;
+    ::setenv("HOME", gmsh, 1);
+  }
+  ~HomeOfGmsh() {
+    if (before_) ::setenv("HOME", before_->c_str(), 1);
+  }
+  HomeOfGmsh(const HomeOfGmsh&) = delete;
+  HomeOfGmsh& operator=(const HomeOfGmsh&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
 }  // namespace
 
 Session::Session(const std::vector<std::string>& arguments) {
@@ -36,8 +64,10 @@ Session::Session(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  const HomeOfGmsh home;
   // No configuration files: the same input and options give the same mesh for every user.
   ::gmsh::initialize(static_cast<int>(words.size()), argv.data(), false);
+  complaint_ = get_last_error();
   take_control();
 }
 
@@ -82,10 +112,13 @@ StageLog run_logged(const std::function<void()>& stage) {
 
 std::string first_errors(const StageLog& log) {
   if (log.errors.empty()) return "no reason given";
+  std::vector<std::string> different;
+  std::set<std::string_view> seen;
+  for (const std::string& error : log.errors)
+    if (seen.insert(error).second) different.push_back(error);
   std::string text;
-  for (std::size_t i = 0; i < log.errors.size() && i < kErrorsToShow; ++i) text += (i ? "; " : "") + log.errors[i];
-  if (log.errors.size() > kErrorsToShow)
-    text += " (and " + std::to_string(log.errors.size() - kErrorsToShow) + " more)";
+  for (std::size_t i = 0; i < different.size() && i < kErrorsToShow; ++i) text += (i ? "; " : "") + different[i];
+  if (different.size() > kErrorsToShow) text += " (and " + std::to_string(different.size() - kErrorsToShow) + " more)";
   return text;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Gmsh's life time, its options and its way of saying that something went wrong.
 
@@ -21,8 +22,12 @@ class Session {
   Session& operator=(const Session&) = delete;
   /// Gmsh is not ended: for a process that ends soon, and a model that cannot be taken down.
   void leave() { left_ = true; }
+  /// What Gmsh said of the arguments (-option, -string) before anyone could listen; of several complaints the last, and
+  /// in a process that has had a session before perhaps one of that.
+  const std::string& complaint() const { return complaint_; }
 
  private:
+  std::string complaint_;
   bool left_ = false;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What the programs that read our meshes ask for, and a mesh in their terms.
 
@@ -57,8 +58,9 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
 
 /// Writes a deck with nodes, elements of the dimension of the mesh, and sets of both for each physical group. Lines are
 /// sets of nodes and no elements, which would be trusses.
-/// \param family of the surface elements, by which their names begin and end: CPS (plane stress: CPS4, CPS8), CPE (plane
-///        strain), CAX (axisymmetric), S (shells), M3D (membranes), each with an R behind it for reduced integration
+/// \param family of the surface elements, by which their names begin and end: CPS (plane stress: CPS4, CPS8), CPE
+///        (plane strain), CAX (axisymmetric), S (shells), M3D (membranes), each with an R behind it for reduced
+///        integration
 /// \throws OutputError
 void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const std::string& path);
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// MSH 2.2, written by ourselves.
 
 #include <string>
 
-#include "gmsh/read/msh2_groups.hpp"
+#include "gmsh/read/msh/msh2_groups.hpp"
 
 namespace qmorph::adapter {
 

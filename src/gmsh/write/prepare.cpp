@@ -139,9 +139,10 @@ std::string orient_surfaces() {
     const Place& place = all.places[e];
     ElementBlock& block = entities[place.entity].blocks[place.block];
     if (block.order > 2)
-      throw InputError(fmt::format("surface {} would have to be turned over, and elements of order {} cannot be; reverse it "
-                                   "in the geometry",
-                                   entities[place.entity].tag, block.order));
+      throw InputError(
+          fmt::format("surface {} would have to be turned over, and elements of order {} cannot be; reverse it "
+                      "in the geometry",
+                      entities[place.entity].tag, block.order));
     turn(block, place.first);
     changed.insert(place.entity);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What readers ask of a model before it is written: changes of the model that are no changes of the mesh.
 
@@ -7,8 +8,9 @@
 
 namespace qmorph::adapter {
 
-/// Turns surface elements so that neighbours agree, also across surfaces, and flat parts show their front: counterclockwise in the
-/// x-y plane, in others towards the axis that they face most. Nothing happens to models with volume elements.
+/// Turns surface elements so that neighbours agree, also across surfaces, and flat parts show their front:
+/// counterclockwise in the x-y plane, in others towards the axis that they face most. Nothing happens to models with
+/// volume elements.
 /// \throws InputError for an element of order 3 or more that would have to be turned
 /// \return what cannot be, or an empty string
 std::string orient_surfaces();

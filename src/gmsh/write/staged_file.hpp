@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Files that are either whole or not there.
 
@@ -7,8 +8,8 @@
 
 namespace qmorph::adapter {
 
-/// Looks whether a file can be put there. \throws OutputError if the target is no regular file, or its directory is missing or not
-/// writable
+/// Looks whether a file can be put there. \throws OutputError if the target is no regular file, or its directory is
+/// missing or not writable
 void check_place(const std::string& target);
 
 /// A temporary file beside the file that it will become. What is not committed is removed.

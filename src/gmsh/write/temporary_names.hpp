@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Files that are there for the time being.
 
@@ -7,8 +8,8 @@
 
 namespace qmorph::adapter {
 
-/// Their names, in plain memory that two processes may share: where the one that makes the files ends before it can remove them, the
-/// other one does.
+/// Their names, in plain memory that two processes may share: where the one that makes the files ends before it can
+/// remove them, the other one does.
 class TemporaryNames {
  public:
   /// To be said before there is a file. More names than there is room for are not kept.

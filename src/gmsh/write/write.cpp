@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/write/write.hpp"
 
 #include <fmt/format.h>
@@ -35,17 +36,16 @@ struct FormatRow {
 
 /// Gmsh's mesh formats. The extension makes gmsh::write take the format; the name is what -format says.
 constexpr std::array kFormats = {
-    FormatRow{"msh", ".msh", -1, true},    FormatRow{"msh1", ".msh1", 1, true},
-    FormatRow{"msh2", ".msh2", 2.2, true}, FormatRow{"msh22", ".msh22", 2.2, true},
-    FormatRow{"msh3", ".msh3", 3, true},   FormatRow{"msh4", ".msh4", 4.1, true},
-    FormatRow{"msh40", ".msh40", 4, true}, FormatRow{"msh41", ".msh41", 4.1, true},
-    FormatRow{"unv", ".unv", 0, true, 2, 8},   // 95: parabolic shells of 8 nodes
-    FormatRow{"vtk", ".vtk", 0, true, 2},      // 23 and 28
-    FormatRow{"mesh", ".mesh", 0, true, 2, 9}, // QuadrilateralsQ2
-    FormatRow{"bdf", ".bdf", 0, true, 2, 8},   // CQUAD8
-    FormatRow{"inp", ".inp", 0, true, 2, 8},   // CPS8
-    FormatRow{"key", ".key", 0, true, 2, 8},
-    FormatRow{"dat", ".dat", 0, true, 2, 9},   // Tochnog's -quad9
+    FormatRow{"msh", ".msh", -1, true},        FormatRow{"msh1", ".msh1", 1, true},
+    FormatRow{"msh2", ".msh2", 2.2, true},     FormatRow{"msh22", ".msh22", 2.2, true},
+    FormatRow{"msh3", ".msh3", 3, true},       FormatRow{"msh4", ".msh4", 4.1, true},
+    FormatRow{"msh40", ".msh40", 4, true},     FormatRow{"msh41", ".msh41", 4.1, true},
+    FormatRow{"unv", ".unv", 0, true, 2, 8},    // 95: parabolic shells of 8 nodes
+    FormatRow{"vtk", ".vtk", 0, true, 2},       // 23 and 28
+    FormatRow{"mesh", ".mesh", 0, true, 2, 9},  // QuadrilateralsQ2
+    FormatRow{"bdf", ".bdf", 0, true, 2, 8},    // CQUAD8
+    FormatRow{"inp", ".inp", 0, true, 2, 8},    // CPS8
+    FormatRow{"key", ".key", 0, true, 2, 8},   FormatRow{"dat", ".dat", 0, true, 2, 9},  // Tochnog's -quad9
     FormatRow{"diff", ".diff", 0, true, 2},    FormatRow{"ir3", ".ir3", 0, true, 2},
     FormatRow{"su2", ".su2", 0, true, 1},      FormatRow{"m", ".m", 0, true},
     FormatRow{"cgns", ".cgns", 0, true},       FormatRow{"med", ".med", 0, true, 2},
@@ -149,13 +149,14 @@ bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
   return version == 2.2 && (opened.msh.is_2() || !opened.views.steps.empty());
 }
 
-/// What is in no physical group is left out if there are groups; but a mesh that is there already is expected to come out whole,
-/// and MSH has room for it.
+/// What is in no physical group is left out if there are groups; but a mesh that is there already is expected to come
+/// out whole, and MSH has room for it.
 bool leaves_out_ungrouped(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
   if (!has_groups() || get_option("Mesh.SaveAll") != 0) return false;
   const bool keeps_all = plan.for_reader || plan.format.is_msh;
   if (keeps_all && opened.msh.version != 0) return false;
-  return plan.for_reader || !plan.format.is_msh || !keeps_tags_of_msh2(choose_version(plan.format, opened, wish), opened);
+  return plan.for_reader || !plan.format.is_msh ||
+         !keeps_tags_of_msh2(choose_version(plan.format, opened, wish), opened);
 }
 
 bool holds_views(double version) { return version == 2.2 || version >= 4; }
@@ -174,8 +175,8 @@ void write_msh(const std::string& path, double version, bool everything) {
   }
 }
 
-/// Some writers put the path of their file into it, which is that of a temporary one. The name that the file will have takes its
-/// place, filled up with blanks.
+/// Some writers put the path of their file into it, which is that of a temporary one. The name that the file will have
+/// takes its place, filled up with blanks.
 void call_by_its_name(const std::string& written, const std::string& target) {
   constexpr std::streamsize kHead = 4096;
   std::fstream file(written, std::ios::in | std::ios::out | std::ios::binary);
@@ -261,11 +262,15 @@ StagedFile stage(const OutputPlan& plan, TemporaryNames* names) {
 void check_format(const OutputPlan& plan, TemporaryNames* names) {
   const StagedFile probe = stage(plan, names);
   const StageLog log = run_logged([&] { ::gmsh::write(probe.path()); });
-  for (const std::string& error : log.errors)
-    if (error.find("nknown") != std::string::npos || error.find("ompiled without") != std::string::npos ||
-        error.find("must be compiled with") != std::string::npos)
-      throw OutputError(
-          fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.path, plan.format.name, error));
+  for (std::string error : log.errors) {
+    if (error.find("nknown") == std::string::npos && error.find("ompiled without") == std::string::npos &&
+        error.find("must be compiled with") == std::string::npos)
+      continue;
+    if (const std::size_t at = error.find(probe.path()); at != std::string::npos)
+      error.replace(at, probe.path().size(), plan.name);
+    throw OutputError(
+        fmt::format("cannot write {}: this Gmsh has no format {} ({})", plan.name, plan.format.name, error));
+  }
 }
 
 void check_elements(const OutputPlan& plan, int order) {
@@ -277,9 +282,10 @@ void check_elements(const OutputPlan& plan, int order) {
     refuse(fmt::format("the format {} has no elements of order {} that its readers know, only up to {} (-order {})",
                        plan.format.name, order, plan.format.max_order, plan.format.max_order));
   if (order == 2 && plan.format.quad_nodes == 9 && has_elements_of(kQuad8, 2))
-    refuse(fmt::format("the format {} has quads of 9 nodes for order 2, and the mesh has some of 8 "
-                       "(-setnumber Mesh.SecondOrderIncomplete 0, or -order 1)",
-                       plan.format.name));
+    refuse(
+        fmt::format("the format {} has quads of 9 nodes for order 2, and the mesh has some of 8 "
+                    "(-setnumber Mesh.SecondOrderIncomplete 0, or -order 1)",
+                    plan.format.name));
   if (order == 2 && plan.format.name == "bdf" && has_elements_of(kLine3, 1) && !has_groups())
     refuse("the format bdf has no lines of order 2; put the surfaces alone in physical groups, or use -order 1");
 }

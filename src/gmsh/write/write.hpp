@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// From the model to a file.
 
@@ -16,8 +17,8 @@ struct OutputFormat {
   std::string extension;   ///< by which Gmsh's API chooses the format, with the dot
   double msh_version = 0;  ///< 0 if it is not MSH, or MSH in whatever version fits
   bool is_msh = false;
-  int max_order = 1;       ///< of elements that the format's readers know
-  int quad_nodes = 0;      ///< that quads of order 2 have there; 0: 8 or 9
+  int max_order = 1;   ///< of elements that the format's readers know
+  int quad_nodes = 0;  ///< that quads of order 2 have there; 0: 8 or 9
 };
 
 /// What to write, decided before any work is done.
@@ -48,8 +49,8 @@ StagedFile stage(const OutputPlan& plan, TemporaryNames* names = nullptr);
 /// \throws OutputError if this build of Gmsh cannot write the format at all
 void check_format(const OutputPlan& plan, TemporaryNames* names = nullptr);
 
-/// Whether the format has such elements. \throws OutputError if not, or if quads of order 2 lack the node in the middle that they
-/// have there
+/// Whether the format has such elements. \throws OutputError if not, or if quads of order 2 lack the node in the middle
+/// that they have there
 void check_elements(const OutputPlan& plan, int order);
 
 /// Changes of the model that the format's readers ask for.
@@ -58,12 +59,12 @@ void prepare_for_format(const OutputPlan& plan);
 /// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
 void renumber();
 
-/// Surfaces with elements that the file will not have, by Gmsh's rule: what is in no physical group is left out if there are
-/// groups. To be asked before partitions are made.
+/// Surfaces with elements that the file will not have, by Gmsh's rule: what is in no physical group is left out if
+/// there are groups. To be asked before partitions are made.
 std::vector<int> find_unwritten_surfaces(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
-/// Those surfaces, and data on nodes and elements for which formats other than MSH have no place. \return what to say about
-/// it, each in a line
+/// Those surfaces, and data on nodes and elements for which formats other than MSH have no place. \return what to say
+/// about it, each in a line
 std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
 /// Writes the current model, whole or not at all. What came from a .msh file goes out in the same version and

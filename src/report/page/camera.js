@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Which part of the plane the panes show; panes share one.
 
 const kLargestZoom = 1e6;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A pane: a canvas that shows a painter's picture through the camera. The picture is kept somewhat larger than the pane,
 // so that panning copies pixels; what is slow to paint is painted when the hand rests.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Colours that mean something. The scale runs from dark blue by green to pale yellow with lightness growing evenly, so
 // that it reads the same with any colour vision and in grey.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Small helpers for the document.
 
 export const byId = (id) => document.getElementById(id);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What is known about the element that was clicked.
 
 import {element, short, whole} from "./dom.js";

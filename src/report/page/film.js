@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The page of --film.
 
 import {byId, element, whole} from "./dom.js";

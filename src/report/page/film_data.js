@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A film: what the front did, as changes from step to step. The coding is described in src/report/film.hpp.
 
 export const kSteps = [

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What the pane of the film shows: triangles, quads, the front by level and state, the step's own quad and base edge.
 
 import {strokeSegments, faceSides} from "./lines.js";

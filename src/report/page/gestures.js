@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Hands on a pane: drag, wheel, two fingers, click, and keys while it has the focus.
 
 const kClickPixels = 5;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Histograms as SVG: bars for after, in the colours of the scale, a line for before.
 
 import {element, short, whole} from "./dom.js";

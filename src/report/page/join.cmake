@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 # cmake -DPAGE=page.html -DNAME=kPage "-DSTYLES=a.css;..." "-DSCRIPTS=a.js;..." -DOUT=page.cpp -P join.cmake
 # Joins a page's files into one text and writes it as a C++ source. The scripts are modules that import only one another
 # and have no two top-level names in common, so that they become one script without their imports and exports.

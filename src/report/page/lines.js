@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Lines and marks on a canvas.
 
 const kLinesInPath = 500;  // a path of many thousand lines takes a hundred times longer than many short paths

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh as the page holds it: four corners a face, the last -1 in a triangle.
 
 export const kNone = -1;

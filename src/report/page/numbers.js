@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The page's facts (JSON) and numbers (base64), which the program has written into it.
 
 export function readFacts() {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Fills polygons pixel by pixel: ten times faster than the canvas where there are hundreds of thousands, and every
 // pixel has the colour of exactly one element: the one that has the pixel's middle.
 

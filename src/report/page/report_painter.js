@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // What a pane of the report shows: faces by colour, their sides, curves and boundary, points, irregular nodes, what is
 // chosen.
 

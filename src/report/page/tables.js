@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // The tables under the panes.
 
 import {element, short, percent, whole} from "./dom.js";

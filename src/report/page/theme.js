@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 // Light and dark: the system's wish unless a button says otherwise; paper is always light.
 
 let chosen = null, printing = false;

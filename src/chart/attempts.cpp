@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/attempts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "chart/irregular_nodes.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+/// Larger and smaller angles at which the front turns a corner or takes an edge as a side.
+std::vector<Options> with_other_fronts(const Options& asked) {
+  std::vector<Options> variants(2, asked);
+  variants[0].front.side_edge_angle *= 1.5;
+  variants[1].front.corner_angle *= 0.9;
+  return variants;
+}
+
+double smallest_sine(const SurfaceMesh& mesh, const Face& face) {
+  double least = 1;
+  for (Index i = 0; i < degree(face); ++i) {
+    const Eigen::Vector3d& at = mesh.points[face[i]];
+    const Eigen::Vector3d ahead = mesh.points[face[next_corner(face, i)]] - at;
+    const Eigen::Vector3d behind = mesh.points[face[i == 0 ? degree(face) - 1 : i - 1]] - at;
+    const double lengths = ahead.norm() * behind.norm();
+    least = std::min(least, lengths > 0 ? ahead.cross(behind).norm() / lengths : 0);
+  }
+  return least;
+}
+
+struct Worth {
+  double irregular = 0;  ///< irregular nodes a face
+  double sum = 0;  ///< a good shape of all elements counts as much as regular nodes, and more than one poor element
+
+  Worth(const SurfaceMesh& mesh, std::size_t triangles) {
+    constexpr double kGoodEnough = 0.4, kTrianglesPerQuad = 2.31, kFairGrowth = 1.25;
+    const std::vector<char> is_irregular = irregular_nodes(mesh, {});
+    const double faces = double(mesh.faces.size());
+    irregular = double(std::count(is_irregular.begin(), is_irregular.end(), 1)) / faces;
+    double least = 1, mean = 0;
+    for (const Face& face : mesh.faces) {
+      const double sine = smallest_sine(mesh, face);
+      if (degree(face) == 4) least = std::min(least, sine);
+      mean += sine / faces;
+    }
+    const double growth = kTrianglesPerQuad * faces / double(triangles);
+    sum = std::min(least, kGoodEnough) + 2 * (mean - irregular) - std::max(0.0, growth - kFairGrowth);
+  }
+};
+
+}  // namespace
+
+RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+  const std::size_t size = region.region.triangles.size();
+  if (task != Task::convert || size > 2 * options.retry_triangles)
+    return work_on_region(region, options, allowed, task);
+  RegionWork best = work_on_region(region, options, allowed, task);
+  Worth worth(best.mesh, size);
+  for (const Options& variant : with_other_fronts(options)) {
+    if (worth.irregular < kFewIrregular) break;
+    try {
+      RegionWork work = work_on_region(region, variant, allowed, task);
+      const Worth other(work.mesh, size);
+      if (worth.sum >= other.sum) continue;
+      best = std::move(work);
+      worth = other;
+    } catch (const SurfaceError&) {
+      // there is a result already
+    }
+  }
+  return best;
+}
+
+}  // namespace qmorph::chart

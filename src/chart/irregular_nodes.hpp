@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include "chart/interfaces.hpp"
+
+namespace qmorph::chart {
+
+/// A mesh with so many irregular nodes a face has few.
+inline constexpr double kFewIrregular = 0.01;
+
+/// By node: free, on no boundary and no crease, and with other than four faces.
+std::vector<char> irregular_nodes(const SurfaceMesh& mesh, const std::vector<Edge>& creases);
+
+}  // namespace qmorph::chart

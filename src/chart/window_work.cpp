@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "chart/window_work.hpp"
+
+#include <numeric>
+
+#include "cleanup/replace_cavities.hpp"
+#include "engine/allowance.hpp"
+#include "engine/pipeline.hpp"
+
+namespace qmorph::chart {
+namespace {
+
+struct Shapes {
+  std::size_t bad = 0;
+  double mean = 0;  ///< of scaled Jacobians
+
+  explicit Shapes(const kernel::Mesh& mesh) {
+    std::size_t faces = 0;
+    for (Index f = 0; f < mesh.face_slots(); ++f) {
+      if (!mesh.is_live_face(f)) continue;
+      bad += !mesh.is_valid_face(f);
+      mean += mesh.smallest_sine(f);
+      ++faces;
+    }
+    if (faces > 0) mean /= double(faces);
+  }
+};
+
+class WindowWork {
+ public:
+  WindowWork(const LaidOut& window, const Options& options)
+      : window_(window),
+        options_(options),
+        work_{&window.piece, window.piece.mesh(window.chart.flat()), {}},
+        before_(work_.mesh),
+        nodes_(window.piece.points.size()),
+        allowed_(allowance(work_.mesh.face_slots())) {
+    std::iota(nodes_.begin(), nodes_.end(), 0);
+    options_.observer = nullptr;
+    options_.progress = {};
+  }
+
+  void clean() {
+    Pipeline pipeline(options_, report_, record_, work_.mesh, allowed_);
+    pipeline.clean_near(work_.mesh, nodes_);
+    pipeline.polish(work_.mesh);
+  }
+
+  /// False if nothing has changed.
+  bool cancel() {
+    const cleanup::CavityLimits wide{
+        .most_quads = 400, .most_growth = 12, .most_tries = 20, .iterations = 12, .size = {0.9, 1.15}};
+    const kernel::Budget budget(work_.mesh, std::size_t(allowed_));
+    if (cleanup::replace_cavities_near(work_.mesh, options_.smoothing, nodes_, budget, wide) == 0) return false;
+    Pipeline(options_, report_, record_, work_.mesh, allowed_).polish(work_.mesh);
+    return true;
+  }
+
+  std::optional<Reworked> result(double mean_loss, const space::Background& background) {
+    const Shapes after(work_.mesh);
+    const auto& [piece, chart] = window_;
+    if (after.bad > before_.bad || after.mean < before_.mean - mean_loss || folds_onto_itself(work_.mesh, piece))
+      return {};
+    work_.lifted = lift(work_.mesh, piece, chart, background);
+    return std::move(work_);
+  }
+
+ private:
+  const LaidOut& window_;
+  Options options_;
+  Reworked work_;
+  const Shapes before_;
+  std::vector<Index> nodes_;
+  const double allowed_;
+  ConversionReport report_;
+  Record record_;
+};
+
+}  // namespace
+
+std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
+                                     const space::Background& background) {
+  WindowWork work(window, options);
+  constexpr double kAny = 1;
+  work.clean();
+  return work.result(kAny, background);
+}
+
+std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
+                                         const space::Background& background) {
+  constexpr double kMeanLoss = 0.005;  // of the scaled Jacobian
+  WindowWork work(window, options);
+  if (!work.cancel()) return {};
+  return work.result(kMeanLoss, background);
+}
+
+}  // namespace qmorph::chart

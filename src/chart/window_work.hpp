@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What makes the mesh better in a window of a surface. Nothing is returned if it was better before.
+
+#include <optional>
+
+#include "chart/divide.hpp"
+#include "chart/rework.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::chart {
+
+/// Irregular nodes cancel, and the rest is smoothed.
+std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
+                                     const space::Background& background);
+
+/// Irregular nodes cancel that lie so far from each other that looking for them everywhere would be dear.
+std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
+                                         const space::Background& background);
+
+}  // namespace qmorph::chart

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/messages/outcome.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <ostream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gmsh/read/meshing.hpp"
+#include "gmsh/session/session.hpp"
+#include "report/summary.hpp"
+
+namespace qmorph::cli {
+namespace {
+
+/// What the caller must know in any case, in one line.
+void print_outcome(const ModelReport& model, const std::string& output, std::ostream& err) {
+  std::string left;
+  for (const SurfaceReport& surface : model.surfaces)
+    if (surface.outcome == SurfaceOutcome::left) left += fmt::format("{}{}", left.empty() ? "" : ", ", surface.tag);
+  if (!left.empty())
+    err << fmt::format("qmorph: {} of {} surfaces left as they were: {}\n", model.count(SurfaceOutcome::left),
+                       model.surfaces.size(), left);
+  else if (model.count(SurfaceOutcome::converted) == 0)
+    err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has them\n";
+}
+
+/// What parity forces is no failure, and there is something to do about it.
+void print_triangles(const Request& request, const ModelReport& model, std::ostream& err) {
+  if (request.all_quad || request.cleanup_only) return;
+  std::size_t triangles = 0;
+  std::vector<int> surfaces;
+  for (const SurfaceReport& surface : model.surfaces) {
+    if (surface.outcome != SurfaceOutcome::converted || surface.triangles_out == 0) continue;
+    triangles += surface.triangles_out;
+    surfaces.push_back(surface.tag);
+  }
+  if (triangles)
+    err << fmt::format(
+        "{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
+        "leaves none\n",
+        triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "));
+}
+
+/// Gmsh may say one thing about each of a million nodes.
+void print_once(std::string_view prefix, const std::vector<std::string>& lines, std::ostream& err) {
+  std::map<std::string, std::size_t> count;
+  for (const std::string& line : lines) ++count[line];
+  for (const std::string& line : lines) {
+    const std::size_t times = std::exchange(count[line], 0);
+    if (times) err << prefix << line << (times > 1 ? fmt::format(" ({} times)", times) : "") << '\n';
+  }
+}
+
+}  // namespace
+
+std::string name_of_input(const Request& request) { return request.from_stdin ? "standard input" : request.input; }
+
+void name_ignored_options(const Request& request, const adapter::OpenedModel& opened, std::ostream& err) {
+  const auto warn = [&](const std::string& what) { err << "warning: " << what << '\n'; };
+  if (!opened.meshed && request.dimension < 3 && !request.meshing_words.empty())
+    warn(fmt::format("Gmsh has nothing to mesh, and {} {} ignored: the elements of {} say how large the quads become",
+                     fmt::join(request.meshing_words, ", "), request.meshing_words.size() == 1 ? "is" : "are",
+                     name_of_input(request)));
+  if (adapter::get_option("Mesh.SubdivisionAlgorithm") != 0)
+    warn("Mesh.SubdivisionAlgorithm is ignored: triangles become quads without being divided");
+  const int order = static_cast<int>(adapter::get_option("Mesh.ElementOrder")), has = adapter::order_of_surfaces();
+  if (request.order_chosen && has > 1 && order > has)
+    warn(fmt::format("order {} is ignored: the elements of {} are of order {}, and their curved edges would be lost",
+                     order, name_of_input(request), has));
+}
+
+void print_summary(const Request& request, const adapter::OpenedModel& opened, const ModelReport& model,
+                   const report::RunFacts& facts, const std::string& output, std::ostream& err) {
+  if (request.verbosity >= 2) print_once("Gmsh: ", opened.warnings, err);
+  if (request.verbosity >= 1) {
+    for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
+    for (const SurfaceReport& surface : model.surfaces) {
+      err << report::surface_line(surface) << '\n';
+      for (const std::string& warning : surface.warnings)
+        err << "warning: surface " << surface.tag << ": " << warning << '\n';
+    }
+    if (facts.even) err << report::even_line(*facts.even) << '\n';
+    print_triangles(request, model, err);
+    err << report::total_line(model, output, facts.total_seconds) << '\n';
+  }
+  print_outcome(model, output, err);
+}
+
+}  // namespace qmorph::cli

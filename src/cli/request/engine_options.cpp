@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/request/engine_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "qmorph/error.hpp"
+
+namespace qmorph::cli {
+namespace {
+
+/// NAME=VALUE of --set.
+void apply(const std::string& setting, Options& options) {
+  const std::size_t equals = setting.find('=');
+  const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end) throw UsageError(fmt::format("--set {}: it takes NAME=NUMBER", setting));
+  set_option(options, setting.substr(0, equals), number);
+}
+
+}  // namespace
+
+Options engine_options(const Request& request) {
+  Options options;
+  options.threads = request.threads;
+  options.layers = request.layers == "on";
+  if (request.crease) set_option(options, "crease_angle", *request.crease);
+  if (request.smoothing == "thesis")
+    options.smoothing.method = SmoothingMethod::thesis;
+  else if (!request.smoothing.empty() && request.smoothing != "shape_energy")
+    throw UsageError(fmt::format("--smoothing: '{}' is neither shape_energy nor thesis", request.smoothing));
+  for (const std::string& setting : request.settings) apply(setting, options);
+  return options;
+}
+
+}  // namespace qmorph::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/work/finish_model.hpp"
+
+#include "gmsh/read/meshing.hpp"
+#include "gmsh/write/consumers.hpp"
+#include "gmsh/write/prepare.hpp"
+
+namespace qmorph::cli {
+
+std::vector<std::string> finish_model(const Request& request, adapter::OpenedModel& opened, adapter::Session& session) {
+  const auto note = [&](const std::vector<std::string>& warnings) {
+    opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
+  };
+  try {
+    if (request.dimension == 3) note(adapter::mesh_volumes(opened.had_mesh));
+  } catch (const adapter::BrokenModel&) {
+    session.leave();
+    throw;
+  }
+  const adapter::RaisedModel raised = adapter::raise_model();
+  note(raised.warnings);
+  if (!opened.had_mesh) adapter::renumber();
+  if (request.partitions > 0) {
+    opened.carried = adapter::carry_over(opened.views);  // partitions take the elements from their surfaces
+    adapter::partition(request.partitions);
+  }
+  return raised.bent;
+}
+
+void prepare_for_readers(const Call& call, const adapter::OutputPlan& plan) {
+  const Request& request = call.request;
+  const adapter::Consumer* reader = request.consumer.empty() ? nullptr : &adapter::find_consumer(request.consumer);
+  if (request.orient || (reader && reader->oriented))
+    if (const std::string problem = adapter::orient_surfaces(); !problem.empty()) call.warn(problem);
+  if (reader && reader->wants_incomplete) adapter::drop_middle_nodes();
+  if (!reader) adapter::prepare_for_format(plan);
+}
+
+}  // namespace qmorph::cli

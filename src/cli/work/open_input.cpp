@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cli/work/open_input.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/messages/outcome.hpp"
+#include "cli/process/reading_limits.hpp"
+#include "gmsh/read/meshing.hpp"
+#include "gmsh/session/session.hpp"
+#include "qmorph/error.hpp"
+
+namespace qmorph::cli {
+namespace {
+
+/// Says what it is at, so that a crash of Gmsh's becomes a message.
+adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) {
+  const std::string name = name_of_input(call.request);
+  std::optional<ReadingLimits> limits;
+  std::vector<std::string> files = options.merged;
+  files.push_back(call.request.input);
+  if (call.process.slate) limits.emplace(files);
+  call.begin(bad_input, name + " cannot be read: Gmsh crashed");
+  options.when_read = [&] {
+    limits.reset();
+    call.begin(bad_input, name + " cannot be meshed: Gmsh crashed");
+  };
+  adapter::OpenedModel opened = adapter::open_model(call.request.input, options);
+  call.begin(bad_input, "a crash while qmorph worked on " + name);
+  return opened;
+}
+
+}  // namespace
+
+void begin_session(const Call& call, adapter::Session& session) {
+  if (!call.process.slate) return;
+  session.leave();
+  const std::string& complaint = session.complaint();
+  if (complaint.empty()) return;
+  if (complaint.rfind("Unknown", 0) != 0) throw InputError("the options cannot be understood: " + complaint);
+  const std::vector<std::string>& named = call.request.option_names;  // which have a warning of their own
+  if (std::none_of(named.begin(), named.end(),
+                   [&](const std::string& name) { return complaint.find(name) != std::string::npos; }))
+    call.warn(complaint);
+}
+
+adapter::OpenedModel open_as_it_is(const Call& call) {
+  const Request& request = call.request;
+  return open_input(call,
+                    {.merged = request.merged, .no_meshing = true, .ignore_periodicity = request.ignore_periodicity});
+}
+
+adapter::OpenedModel open_for_conversion(const Call& call, const adapter::OutputPlan& plan) {
+  const Request& request = call.request;
+  if (!request.algorithm_chosen) adapter::set_option("Mesh.Algorithm", adapter::kDefaultAlgorithm);
+  if (plan.format.quad_nodes == 8) adapter::set_option("Mesh.SecondOrderIncomplete", 1);
+  for (const std::string& name : request.option_names)
+    if (!adapter::option_exists(name)) call.warn("this Gmsh has no option " + name);
+  adapter::OpenedModel opened = open_input(call, {.merged = request.merged,
+                                                  .background = request.background,
+                                                  .no_meshing = request.no_meshing,
+                                                  .ignore_periodicity = request.ignore_periodicity});
+  if (request.drop_volumes) adapter::drop_volumes();
+  if (request.verbosity >= 1) name_ignored_options(request, opened, call.err);
+  if (request.order_chosen) adapter::lower_model(static_cast<int>(adapter::get_option("Mesh.ElementOrder")));
+  if (request.consumer.empty()) {
+    const int raised = static_cast<int>(adapter::get_option("Mesh.ElementOrder")), has = adapter::order_of_surfaces();
+    adapter::check_elements(plan, has > 1 ? has : raised);
+  }
+  return opened;
+}
+
+}  // namespace qmorph::cli

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "python/arrays.hpp"
+
+#include <string>
+
+#include "qmorph/error.hpp"
+
+namespace py = pybind11;
+
+namespace qmorph::python {
+namespace {
+
+constexpr auto kAnyLayout = py::array::c_style | py::array::forcecast;
+
+[[noreturn]] void refuse(const char* name, const char* wanted) { throw UsageError(std::string(name) + ": " + wanted); }
+
+/// As NumPy sees it; an empty one where it is None.
+py::array array_from(const py::object& object, const char* name) {
+  if (object.is_none()) return py::array_t<double>(0);
+  py::array array = py::array::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    refuse(name, "not an array of numbers");
+  }
+  return array;
+}
+
+using Numbers = py::array_t<std::int64_t, kAnyLayout>;
+
+/// Whole numbers. Fractions are refused, for NumPy would round them without a word.
+Numbers whole_numbers(const py::array& array, const char* name) {
+  const char kind = array.dtype().kind();
+  if (array.size() > 0 && kind != 'i' && kind != 'u') refuse(name, "node numbers must be integers");
+  return Numbers(array);
+}
+
+Index node_from(std::int64_t number, const char* name) {
+  if (number < 0 || number >= std::int64_t(kNone)) refuse(name, "node numbers count from 0");
+  return Index(number);
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> points_from(const py::object& object) {
+  const py::array array = array_from(object, "points");
+  if (array.ndim() != 2 || (array.shape(1) != 2 && array.shape(1) != 3))
+    refuse("points", "two or three columns are wanted");
+  if (array.dtype().kind() == 'c' || array.dtype().kind() == 'O') refuse("points", "real numbers are wanted");
+  const py::array_t<double, kAnyLayout> numbers(array);
+  const auto view = numbers.unchecked<2>();
+  std::vector<Eigen::Vector3d> points(std::size_t(view.shape(0)));
+  for (py::ssize_t i = 0; i < view.shape(0); ++i)
+    points[std::size_t(i)] = {view(i, 0), view(i, 1), view.shape(1) == 3 ? view(i, 2) : 0};
+  return points;
+}
+
+template <std::size_t N>
+std::vector<std::array<Index, N>> elements_from(const py::object& object, const char* name) {
+  const py::array array = array_from(object, name);
+  if (array.size() == 0) return {};
+  if (array.ndim() != 2 || array.shape(1) != py::ssize_t(N))
+    refuse(name, (std::to_string(N) + " columns of node numbers are wanted").c_str());
+  const Numbers numbers = whole_numbers(array, name);
+  const auto view = numbers.unchecked<2>();
+  std::vector<std::array<Index, N>> elements(std::size_t(view.shape(0)));
+  for (py::ssize_t i = 0; i < view.shape(0); ++i)
+    for (std::size_t k = 0; k < N; ++k) elements[std::size_t(i)][k] = node_from(view(i, py::ssize_t(k)), name);
+  return elements;
+}
+template std::vector<std::array<Index, 2>> elements_from<2>(const py::object&, const char*);
+template std::vector<std::array<Index, 3>> elements_from<3>(const py::object&, const char*);
+template std::vector<std::array<Index, 4>> elements_from<4>(const py::object&, const char*);
+
+std::vector<Index> nodes_from(const py::object& object, const char* name) {
+  const py::array array = array_from(object, name);
+  if (array.size() == 0) return {};
+  if (array.ndim() != 1) refuse(name, "one column of node numbers is wanted");
+  const Numbers numbers = whole_numbers(array, name);
+  std::vector<Index> nodes;
+  for (py::ssize_t i = 0; i < numbers.size(); ++i) nodes.push_back(node_from(numbers.at(i), name));
+  return nodes;
+}
+
+Patch patch_from(const py::object& points, const py::object& triangles, const py::object& quads,
+                 const py::object& constraints, const py::object& fixed) {
+  Patch patch;
+  patch.points = points_from(points);
+  patch.triangles = elements_from<3>(triangles, "triangles");
+  patch.quads = elements_from<4>(quads, "quads");
+  patch.constraints = elements_from<2>(constraints, "constraints");
+  patch.fixed = nodes_from(fixed, "fixed");
+  // The engine checks the nodes of elements; these it takes as they are.
+  const auto check = [&](Index v, const char* name) {
+    if (v >= patch.points.size()) refuse(name, "a node number is larger than there are points");
+  };
+  for (const auto& [a, b] : patch.constraints) check(a, "constraints"), check(b, "constraints");
+  for (Index v : patch.fixed) check(v, "fixed");
+  return patch;
+}
+
+py::dict arrays_of(QuadMesh&& mesh) {
+  // -1 says "new" better than the largest number that there is.
+  std::vector<std::int32_t> source(mesh.source.size());
+  for (std::size_t i = 0; i < source.size(); ++i)
+    source[i] = mesh.source[i] == kNone ? -1 : std::int32_t(mesh.source[i]);
+  py::dict arrays;
+  arrays["points"] = view_of<Eigen::Vector3d, double, 3>(std::move(mesh.points));
+  arrays["quads"] = view_of<std::array<Index, 4>, Index, 4>(std::move(mesh.quads));
+  arrays["triangles"] = view_of<std::array<Index, 3>, Index, 3>(std::move(mesh.triangles));
+  arrays["source"] = view_of<std::int32_t, std::int32_t, 1>(std::move(source));
+  return arrays;
+}
+
+}  // namespace qmorph::python

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""All-quadrilateral meshes from triangles (Q-Morph, Owen et al. 1999).
+
+    mesh = qmorph.convert(points, triangles)          # arrays in, arrays out
+    qmorph.gmsh.recombine()                           # the model of the Gmsh session that is open (import qmorph.gmsh)
+    quads = qmorph.meshio.convert(mesh)               # a meshio.Mesh in and out (import qmorph.meshio)
+
+Options of all three are keywords, under the names that option_names() lists, a dot being an underscore (angles in degrees,
+switches 0 or 1), and
+    threads: at most so many; 0, as many as the machine has. The result does not depend on it.
+    smoothing: "shape_energy" or "thesis"
+    layers: whether rows of triangles along walls stay rows of quads (default: yes)
+    crease_angle: on curved surfaces edges with a sharper bend are kept (default: 40)
+"""
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, List, Optional
+
+from . import _core
+from ._progress import Progress, callback_of
+from .errors import Cancelled, Error, InputError, SurfaceError, UsageError
+from .result import EvenReport, Mesh, ModelReport, SurfaceReport
+
+__all__ = [
+    "Cancelled", "Error", "EvenReport", "InputError", "Mesh", "ModelReport", "SurfaceError", "SurfaceReport", "UsageError",
+    "convert", "improve", "measure", "option_names",
+]
+
+
+def convert(
+    points: Any,
+    triangles: Any,
+    *,
+    quads: Any = None,
+    constraints: Any = None,
+    fixed: Any = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Mesh:
+    """Turns the triangles of a surface, planar or curved, into quads.
+
+    points: coordinates, two columns or three
+    triangles: node numbers from 0, three columns, oriented alike
+    quads: elements that are there already and stay, four columns
+    constraints: edges that stay, two columns
+    fixed: nodes that stay where they are, besides those of the boundary and of the constraints
+    progress: called with the name of a stage and the share that is done, from the calling thread; the work ends if it returns
+        False or raises. True: a tqdm bar, where tqdm is installed.
+    options: see help(qmorph)
+
+    Every boundary edge and constraint stays an edge; no triangle is left but one in each region with an odd number of sides.
+    The same arguments give the same result. Ctrl-C ends the work; other threads run meanwhile.
+
+    Raises SurfaceError for a surface that cannot be converted, UsageError for arguments that make no sense; both say where.
+    """
+    with callback_of(progress) as callback:
+        return Mesh(**_core.convert(points, triangles, quads, constraints, fixed, options, callback))
+
+
+def improve(
+    points: Any,
+    quads: Any,
+    *,
+    triangles: Any = None,
+    constraints: Any = None,
+    fixed: Any = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Mesh:
+    """Makes better quads of quads, or of quads and triangles, that are there already; all of them may change.
+
+    Arguments and errors as those of convert().
+    """
+    with callback_of(progress) as callback:
+        return Mesh(**_core.improve(points, triangles, quads, constraints, fixed, options, callback))
+
+
+def measure(points: Any, quads: Any, triangles: Any = None) -> Dict[str, Any]:
+    """Figures of a mesh by name, as in Mesh.quality, and "scaled_jacobians", one for each quad."""
+    return _core.measure(points, triangles, quads)
+
+
+def option_names() -> List[str]:
+    """The constants of the algorithm, as `qmorph --set` knows them."""
+    return list(_core.option_names())
