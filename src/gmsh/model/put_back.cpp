@@ -52,7 +52,7 @@ void clear_and_refill(const ModelMesh& mesh, const std::vector<Replacement>& rep
     to_clear.emplace_back((*it)->dim, (*it)->tag);
   ::gmsh::model::mesh::clear(to_clear);
   for (const EntityMesh* entity : refill) add_nodes(*entity);
-  add_elements(refill);
+  add_elements(refill, mesh.tags.size());
 }
 
 }  // namespace
