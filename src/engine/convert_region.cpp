@@ -2,6 +2,8 @@
 #include "engine/convert_region.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include "engine/ear.hpp"
@@ -171,13 +173,21 @@ class RegionConverter {
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(final, result.report, result.record, input_, allowed);
     if (with_front) pipeline.advance_front(result.mesh, plane_);
+    const std::size_t front_work = result.mesh.work();
+    cost_ += front_work;
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = SurfaceError("too many elements");
-      cost_ += result.mesh.work();
+      return result;
+    }
+    const auto [known, is_new] = finished_.try_emplace(result.mesh.fingerprint(), 0);
+    if (!is_new) {
+      result.fault = SurfaceError("the front has made this before");
+      cost_ += known->second;
       return result;
     }
     pipeline.finish(result.mesh);
-    cost_ += result.mesh.work();
+    known->second = result.mesh.work() - front_work;
+    cost_ += known->second;
     if (is_small_) raise_corners(result.mesh, options.smoothing);
     if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
@@ -217,6 +227,7 @@ class RegionConverter {
   const bool is_small_;  ///< so that a second try is allowed
   const double allowed_;
   std::size_t cost_ = 0;
+  std::map<std::uint64_t, std::size_t> finished_;  ///< fingerprints of what fronts made: what the rest has cost
   kernel::Mesh start_;  ///< what the front begins with
   kernel::Mesh input_;  ///< as it came, if stages are measured
 };

@@ -10,6 +10,7 @@
 ///   - two vertices are joined by one edge at most, or by the two sides of a slit that is one edge long
 ///   - a dead element is reachable from nothing
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -81,6 +82,9 @@ class Mesh {
   static constexpr Index kManyEdges = 64;
   /// Of all vertices, by vertex; 0 for dead ones.
   std::vector<Index> valences() const;
+  /// The same for meshes that are the same to the bit, dead elements and all, so that the same edits have the same
+  /// result; for others nearly always another one. Linear.
+  std::uint64_t fingerprint() const;
   /// The half-edge from a to b, or kNone. O(valence).
   Index find(Index a, Index b) const;
 
