@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "chart/cutting_plane.hpp"
@@ -23,6 +24,8 @@ constexpr double kCrumb = 0.1;
 /// cut again, they would be all interface.
 constexpr double kMostDistortion = 1.2, kMostOfFew = 2;
 constexpr double kMany = 200, kFew = 30;
+/// Faces of a part that is looked at before it is laid flat, which costs more.
+constexpr std::size_t kLarge = 500;
 
 double most_distortion(std::size_t faces) {
   const double few = std::clamp((kMany - double(faces)) / (kMany - kFew), 0.0, 1.0);
@@ -59,7 +62,6 @@ class Dividing {
   /// A disc that is curved so much in sum that nobody has to try: half a sphere lacks 2 pi. Tips may be cut open.
   static bool is_round(const Piece& piece) {
     constexpr double kMostInSum = 5, kTip = 0.5;
-    constexpr std::size_t kLarge = 500;
     if (piece.faces.size() < kLarge) return false;
     const std::vector<double> defects = angle_defects(piece);
     std::vector<char> is_outer(piece.points.size(), 0);
@@ -69,6 +71,24 @@ class Dividing {
     for (Index v = 0; v < defects.size(); ++v)
       if (!is_outer[v] && std::abs(defects[v]) < kTip) sum += defects[v];
     return std::abs(sum) > kMostInSum;
+  }
+
+  /// A surface with several rims that cannot lie flat before it is opened: rims of a flat one turn by 2 pi, the outer
+  /// one to the left, the others to the right; those of a tube do not turn.
+  static bool has_to_be_opened(const Piece& piece) {
+    constexpr double kMostAmiss = 4;
+    const std::vector<std::vector<Index>> loops = loops_of(piece);
+    if (piece.faces.size() < kLarge || loops.size() < 2) return false;
+    const std::vector<double> turns = angle_defects(piece);
+    std::vector<double> sums;
+    for (const std::vector<Index>& loop : loops) {
+      double sum = 0;
+      for (Index v : loop) sum += turns[v];
+      sums.push_back(sum);
+    }
+    std::sort(sums.rbegin(), sums.rend());
+    const double full = 2 * std::numbers::pi;
+    return std::abs(sums.front() - full) > kMostAmiss || std::abs(sums.back() + full) > kMostAmiss;
   }
 
   void accept(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
@@ -84,6 +104,12 @@ class Dividing {
   std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
     Piece piece(mesh_, opposite_, division_.is_cut, faces);
     if (double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece)) {
+      auto smaller = cut(faces, piece);
+      if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
+      return smaller;
+    }
+    if (has_to_be_opened(piece)) {
+      if (auto opened = open(faces, piece)) return finish(faces, std::move(opened));
       auto smaller = cut(faces, piece);
       if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
       return smaller;

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
 
 namespace qmorph::space {
 namespace {
@@ -32,10 +31,13 @@ struct TurnedAxes {
   Vec2 operator()(const Vector3d& w) const { return {w.dot(u), w.dot(v)}; }
 };
 
-std::multimap<Index, Index> triangles_by_corner(const Background& surface) {
-  std::multimap<Index, Index> triangles;
+/// Corner and triangle, by corner.
+std::vector<std::pair<Index, Index>> triangles_by_corner(const Background& surface) {
+  std::vector<std::pair<Index, Index>> triangles;
+  triangles.reserve(3 * surface.triangles());
   for (Index t = 0; t < surface.triangles(); ++t)
-    for (Index v : surface.corners(t)) triangles.emplace(v, t);
+    for (Index v : surface.corners(t)) triangles.emplace_back(v, t);
+  std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
 
@@ -130,15 +132,16 @@ void MeshOnSurface::find_places() {
   };
   spread();
   if (std::all_of(found.begin(), found.end(), [](char is) { return is; })) return;
-  const std::multimap<Index, Index> triangles_at = triangles_by_corner(surface_);
+  const auto triangles_at = triangles_by_corner(surface_);
   for (Index f = 0; f < faces(); ++f) {
     if (found[f]) continue;
     Foot best = surface_.foot_on(mesh_.near[f], centre(f));
     bool best_is_alike = false;
     const Vector3d own = normal_of(f);
     for (Index i = 0; i < chart::degree(mesh_.faces[f]); ++i) {
-      const auto [first, last] = triangles_at.equal_range(mesh_.faces[f][i]);
-      for (auto it = first; it != last; ++it) {
+      const std::pair<Index, Index> start(mesh_.faces[f][i], 0);
+      auto it = std::lower_bound(triangles_at.begin(), triangles_at.end(), start);
+      for (; it != triangles_at.end() && it->first == start.first; ++it) {
         const Foot foot = surface_.foot_on(it->second, centre(f));
         const bool is_alike = surface_.normal(it->second).dot(own) > 0;
         if (is_alike == best_is_alike ? foot.distance2 < best.distance2 : is_alike)

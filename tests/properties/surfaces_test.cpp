@@ -61,10 +61,10 @@ TEST_CASE("1000 random surfaces convert without breaking an invariant") {
   }
 }
 
-TEST_CASE("random domains rolled onto cylinders and cones are worth what they are in the plane") {
+TEST_CASE("1000 random domains rolled onto cylinders and cones are worth what they are in the plane") {
   Pool flat, bent;
   std::size_t refused = 0;  // slivers between three nodes of a line turn over where the line is bent
-  for (std::uint64_t seed = 0; seed < seeds(300); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(1000); ++seed) {
     const Patch patch = random_domain(seed).patch;
     Rng rng(seed);
     const Options options = options_for(seed);
@@ -79,11 +79,10 @@ TEST_CASE("random domains rolled onto cylinders and cones are worth what they ar
       ++refused;
     }
   }
-  CHECK(100 * refused <= seeds(300) + 99);
+  CHECK(100 * refused <= seeds(1000) + 99);
   CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
   CHECK(double(bent.quads) == doctest::Approx(double(flat.quads)).epsilon(0.02));
-  // A third of what is lost is lost in the plane, too, when nodes are off by a thousandth of an edge: exact lattices
-  // are easier.
-  const double scatter = 0.002 * std::sqrt(300 / double(seeds(300)));
-  CHECK(bent.share() <= flat.share() * 1.08 + scatter);
+  // A single domain says little: what few of them may differ by besides.
+  const double scatter = 0.004 * std::max(0.0, std::sqrt(1000 / double(seeds(1000))) - 1);
+  CHECK(bent.share() <= flat.share() * 1.02 + scatter);
 }
