@@ -15,7 +15,7 @@ using namespace qmorph::test;
 
 namespace {
 
-constexpr int kTetrahedron = 4, kPyramid = 7, kTriangle = 2, kQuad = 3;
+constexpr int kTetrahedron = 4, kHexahedron = 5, kPrism = 6, kPyramid = 7, kTriangle = 2, kQuad = 3;
 
 constexpr const char* kBox =
     "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nMesh.MeshSizeMax = 0.4;\n"
@@ -121,4 +121,55 @@ TEST_CASE("volumes: --drop-volumes removes their elements and converts the surfa
     CHECK(counts.count(kTriangle) == 0);
     CHECK(counts.at(kQuad) > 0);
   }
+}
+
+namespace {
+
+/// `qmorph -3` on a script, in a process of its own. \return what is in the mesh
+std::map<int, std::size_t> mesh_in_space(const std::string& script, int wanted_status = 0) {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", script);
+  const int status = std::system(
+      fmt::format("'{}' -v 0 -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str());
+  CAPTURE(read_file(directory / "err"));
+  REQUIRE(WEXITSTATUS(status) == wanted_status);
+  return count_types(read_snapshot(directory / "in.msh"));
+}
+
+/// A square with a round hole, which no grid fits.
+constexpr const char* kHoled =
+    "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {1, 0, 0, 1, 1};\nDisk(2) = {1.5, 0.45, 0, 0.21};\n"
+    "BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }\nMesh.MeshSizeMax = 0.1;\n";
+
+}  // namespace
+
+TEST_CASE("volumes: extruded surfaces with curved walls become hexahedra, whatever the motion is") {
+  for (const std::string motion : {"{0, 0, 1}", "{0.371, 0.4913, 0.77}", "{{0, 1, 0}, {0, 0, 0}, 1.234}"}) {
+    CAPTURE(motion);
+    const auto counts =
+        mesh_in_space(fmt::format("{}Extrude{}{{ Surface{{1}}; Layers{{3}}; Recombine; }}\n", kHoled, motion));
+    CHECK(counts.at(kHexahedron) > 150);
+    CHECK(counts.count(kTriangle) + counts.count(kTetrahedron) + counts.count(kPyramid) + counts.count(kPrism) == 0);
+  }
+}
+
+TEST_CASE("volumes: extruded surfaces in a pile, and in a ring, fit one another") {
+  const std::string quarter = "{{0, 1, 0}, {0, 0, 0}, Pi/2}";
+  std::string pile = kHoled;
+  pile += fmt::format("a[] = Extrude{}{{ Surface{{1}}; Layers{{4}}; Recombine; }};\n", quarter);
+  pile += fmt::format("b[] = Extrude{}{{ Surface{{a[0]}}; Layers{{4}}; Recombine; }};\n", quarter);
+  pile += fmt::format("c[] = Extrude{}{{ Surface{{b[0]}}; Layers{{4}}; Recombine; }};\n", quarter);
+  const auto counts = mesh_in_space(pile);
+  CHECK(counts.at(kHexahedron) % 12 == 0);
+  CHECK(counts.count(kTriangle) + counts.count(kTetrahedron) + counts.count(kPyramid) == 0);
+}
+
+TEST_CASE("volumes: above a triangle that an odd boundary leaves there are prisms") {
+  const auto counts = mesh_in_space(
+      "Point(1) = {0, 0, 0, 0.2};\nPoint(2) = {1, 0, 0, 0.2};\nPoint(3) = {0, 1, 0, 0.2};\nCircle(1) = {2, 1, 3};\n"
+      "Line(2) = {3, 1};\nLine(3) = {1, 2};\nTransfinite Curve{1} = 8;\nTransfinite Curve{2, 3} = 6;\n"
+      "Curve Loop(1) = {1, 2, 3};\nPlane Surface(1) = {1};\n"
+      "Extrude{{0.1, 0.7, 0.3}, {0.1, 0.7, 0.3}, {-3, 0, 1}, 0.7}{ Surface{1}; Layers{4}; Recombine; }\n");
+  CHECK(counts.at(kPrism) == 4);
+  CHECK(counts.at(kHexahedron) > 40);
 }
