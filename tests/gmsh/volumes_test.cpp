@@ -63,16 +63,33 @@ TEST_CASE("volumes: -3 works without a geometry, also where tetrahedra are dropp
   }
 }
 
-TEST_CASE("volumes: where Gmsh cannot make pyramids, on quads between two volumes, it is said and there is no crash") {
+TEST_CASE("volumes: quads between two volumes get a pyramid on each side") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo",
              "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {1, 0, 0, 1, 1, 1};\nCoherence;\n"
              "Mesh.MeshSizeMax = 0.4;\n");
+  REQUIRE(std::system(
+              fmt::format("'{}' -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str()) ==
+          0);
+  const Snapshot out = read_snapshot(directory / "in.msh");
+  const auto counts = count_types(out);
+  const std::size_t between = element_counts(out, 2).second;  // surface 2 is at x = 1
+  CHECK(between > 0);
+  CHECK(counts.at(kPyramid) == counts.at(kQuad) + between);
+  CHECK(read_file(directory / "err")
+            .find(fmt::format("2 volumes: {} pyramids, {} tetrahedra", counts.at(kPyramid), counts.at(kTetrahedron))) !=
+        std::string::npos);
+}
+
+TEST_CASE("volumes: extruded in layers without Recombine, the message says what is missing") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nDisk(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.5;\n"
+             "Extrude{0, 0, 2}{ Surface{1}; Layers{6}; }\n");
   const int status = std::system(
       fmt::format("'{}' -v 0 -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str());
-  if (status == 0) return;  // a newer Gmsh can
   CHECK(WEXITSTATUS(status) == 2);
-  CHECK(read_file(directory / "err").find("non-manifold quad boundaries not supported yet") != std::string::npos);
+  CHECK(read_file(directory / "err").find("needs Recombine in its Extrude") != std::string::npos);
   CHECK(directory.files() == std::vector<std::string>{"err", "in.geo"});
 }
 
