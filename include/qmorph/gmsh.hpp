@@ -45,7 +45,7 @@ struct SurfaceReport {
   Fidelity fidelity;            ///< of a curved surface that was converted, or of one measured against another
   std::vector<PoorQuad> poor;   ///< why those of its quads that are poor are so; rows count through the surface's parts
   ConversionReport conversion;  ///< of converted: what was done
-  int image_of = 0;  ///< the surface whose quads it has, if it is periodic with one that was converted; else 0
+  int image_of = 0;  ///< the surface whose quads it has, if periodic with or extruded from one; else 0
   double seconds = 0;
 };
 

@@ -196,6 +196,12 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
   json["directed_size_ratio"] = directions_json(conversions.sizes);
   json["stages"] = stages_json(sum.stages);
   if (facts.even) json["all_quad"] = even_json(*facts.even);
+  if (facts.volumes.volumes)
+    json["volumes"] = {{"volumes", facts.volumes.volumes},
+                       {"hexahedra", facts.volumes.hexahedra},
+                       {"prisms", facts.volumes.prisms},
+                       {"pyramids", facts.volumes.pyramids},
+                       {"tetrahedra", facts.volumes.tetrahedra}};
   json["surfaces"] = Json::array();
   for (const SurfaceReport& surface : model.surfaces) json["surfaces"].push_back(surface_json(surface, recorder));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gmsh/volumes/volumes.hpp"
 #include "qmorph/gmsh.hpp"
 #include "report/recorder.hpp"
 
@@ -18,6 +19,7 @@ struct RunFacts {
   std::vector<std::string> arguments;  ///< of the command line
   int exit_status = 0;
   std::optional<EvenReport> even;  ///< of --all-quad
+  adapter::VolumeCounts volumes{};
   double open_seconds = 0, mesh_seconds = 0, write_seconds = 0, total_seconds = 0;
 };
 

@@ -101,6 +101,18 @@ std::string total_line(const ModelReport& model, const std::string& output, doub
                      poor(model), seconds, output);
 }
 
+std::string volume_line(const adapter::VolumeCounts& volumes) {
+  std::vector<std::string> kinds;
+  const auto add = [&](std::size_t count, const char* one, const char* several) {
+    if (count) kinds.push_back(fmt::format("{} {}", count, count == 1 ? one : several));
+  };
+  add(volumes.hexahedra, "hexahedron", "hexahedra");
+  add(volumes.prisms, "prism", "prisms");
+  add(volumes.pyramids, "pyramid", "pyramids");
+  add(volumes.tetrahedra, "tetrahedron", "tetrahedra");
+  return fmt::format("{}: {}", counted(volumes.volumes, "volume"), fmt::join(kinds, ", "));
+}
+
 std::string even_line(const EvenReport& even) {
   std::map<int, std::size_t> count;
   for (const SplitEdge& split : even.splits) ++count[split.curve];

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "gmsh/volumes/volumes.hpp"
 #include "qmorph/gmsh.hpp"
 
 namespace qmorph::report {
@@ -17,6 +18,9 @@ std::string check_line(const ModelReport& model);
 
 /// The same for the model, with the seconds of the whole run and the file that it is in now.
 std::string total_line(const ModelReport& model, const std::string& output, double seconds);
+
+/// `1 volume: 477 hexahedra, 12 prisms`
+std::string volume_line(const adapter::VolumeCounts& volumes);
 
 /// `--all-quad: 2 segments got a node, on curves 4, 7 (3 regions had an odd boundary); surface 3 stays odd`
 std::string even_line(const EvenReport& even);

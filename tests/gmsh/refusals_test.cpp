@@ -114,7 +114,7 @@ TEST_CASE("refused: a surface that bounds tetrahedra") {
   });
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CHECK(result.status == 3);
-  CHECK(mentions(result.err, "it bounds a volume that is meshed already"));
+  CHECK(mentions(result.err, "it bounds volume 1, meshed already"));
   CHECK(mentions(result.err, "--drop-volumes"));
   CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
 }

@@ -117,7 +117,7 @@ TEST_CASE("trap 6: without removeElements, surfaces with volumes beside them are
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CHECK(result.status == 3);
   CHECK(mentions(result.err, "surface 1: "));
-  CHECK(mentions(result.err, "bounds a volume"));
+  CHECK(mentions(result.err, "bounds volume"));
   const Snapshot before = read_snapshot(directory / "in.msh"), after = read_snapshot(directory / "out.msh");
   CHECK(difference(before, after, {50}) == "");
   CHECK(element_counts(after, 50).first == 0);

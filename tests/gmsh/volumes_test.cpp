@@ -15,7 +15,7 @@ using namespace qmorph::test;
 
 namespace {
 
-constexpr int kTetrahedron = 4, kPyramid = 7, kTriangle = 2, kQuad = 3;
+constexpr int kTetrahedron = 4, kHexahedron = 5, kPrism = 6, kPyramid = 7, kTriangle = 2, kQuad = 3;
 
 constexpr const char* kBox =
     "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nMesh.MeshSizeMax = 0.4;\n"
@@ -63,16 +63,33 @@ TEST_CASE("volumes: -3 works without a geometry, also where tetrahedra are dropp
   }
 }
 
-TEST_CASE("volumes: where Gmsh cannot make pyramids, on quads between two volumes, it is said and there is no crash") {
+TEST_CASE("volumes: quads between two volumes get a pyramid on each side") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo",
              "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nBox(2) = {1, 0, 0, 1, 1, 1};\nCoherence;\n"
              "Mesh.MeshSizeMax = 0.4;\n");
+  REQUIRE(std::system(
+              fmt::format("'{}' -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str()) ==
+          0);
+  const Snapshot out = read_snapshot(directory / "in.msh");
+  const auto counts = count_types(out);
+  const std::size_t between = element_counts(out, 2).second;  // surface 2 is at x = 1
+  CHECK(between > 0);
+  CHECK(counts.at(kPyramid) == counts.at(kQuad) + between);
+  CHECK(read_file(directory / "err")
+            .find(fmt::format("2 volumes: {} pyramids, {} tetrahedra", counts.at(kPyramid), counts.at(kTetrahedron))) !=
+        std::string::npos);
+}
+
+TEST_CASE("volumes: extruded in layers without Recombine, the message says what is missing") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nDisk(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.5;\n"
+             "Extrude{0, 0, 2}{ Surface{1}; Layers{6}; }\n");
   const int status = std::system(
       fmt::format("'{}' -v 0 -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str());
-  if (status == 0) return;  // a newer Gmsh can
   CHECK(WEXITSTATUS(status) == 2);
-  CHECK(read_file(directory / "err").find("non-manifold quad boundaries not supported yet") != std::string::npos);
+  CHECK(read_file(directory / "err").find("needs Recombine in its Extrude") != std::string::npos);
   CHECK(directory.files() == std::vector<std::string>{"err", "in.geo"});
 }
 
@@ -121,4 +138,55 @@ TEST_CASE("volumes: --drop-volumes removes their elements and converts the surfa
     CHECK(counts.count(kTriangle) == 0);
     CHECK(counts.at(kQuad) > 0);
   }
+}
+
+namespace {
+
+/// `qmorph -3` on a script, in a process of its own. \return what is in the mesh
+std::map<int, std::size_t> mesh_in_space(const std::string& script, int wanted_status = 0) {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", script);
+  const int status = std::system(
+      fmt::format("'{}' -v 0 -3 '{}' 2> '{}'", QMORPH_COMMAND, directory / "in.geo", directory / "err").c_str());
+  CAPTURE(read_file(directory / "err"));
+  REQUIRE(WEXITSTATUS(status) == wanted_status);
+  return count_types(read_snapshot(directory / "in.msh"));
+}
+
+/// A square with a round hole, which no grid fits.
+constexpr const char* kHoled =
+    "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {1, 0, 0, 1, 1};\nDisk(2) = {1.5, 0.45, 0, 0.21};\n"
+    "BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }\nMesh.MeshSizeMax = 0.1;\n";
+
+}  // namespace
+
+TEST_CASE("volumes: extruded surfaces with curved walls become hexahedra, whatever the motion is") {
+  for (const std::string motion : {"{0, 0, 1}", "{0.371, 0.4913, 0.77}", "{{0, 1, 0}, {0, 0, 0}, 1.234}"}) {
+    CAPTURE(motion);
+    const auto counts =
+        mesh_in_space(fmt::format("{}Extrude{}{{ Surface{{1}}; Layers{{3}}; Recombine; }}\n", kHoled, motion));
+    CHECK(counts.at(kHexahedron) > 150);
+    CHECK(counts.count(kTriangle) + counts.count(kTetrahedron) + counts.count(kPyramid) + counts.count(kPrism) == 0);
+  }
+}
+
+TEST_CASE("volumes: extruded surfaces in a pile, and in a ring, fit one another") {
+  const std::string quarter = "{{0, 1, 0}, {0, 0, 0}, Pi/2}";
+  std::string pile = kHoled;
+  pile += fmt::format("a[] = Extrude{}{{ Surface{{1}}; Layers{{4}}; Recombine; }};\n", quarter);
+  pile += fmt::format("b[] = Extrude{}{{ Surface{{a[0]}}; Layers{{4}}; Recombine; }};\n", quarter);
+  pile += fmt::format("c[] = Extrude{}{{ Surface{{b[0]}}; Layers{{4}}; Recombine; }};\n", quarter);
+  const auto counts = mesh_in_space(pile);
+  CHECK(counts.at(kHexahedron) % 12 == 0);
+  CHECK(counts.count(kTriangle) + counts.count(kTetrahedron) + counts.count(kPyramid) == 0);
+}
+
+TEST_CASE("volumes: above a triangle that an odd boundary leaves there are prisms") {
+  const auto counts = mesh_in_space(
+      "Point(1) = {0, 0, 0, 0.2};\nPoint(2) = {1, 0, 0, 0.2};\nPoint(3) = {0, 1, 0, 0.2};\nCircle(1) = {2, 1, 3};\n"
+      "Line(2) = {3, 1};\nLine(3) = {1, 2};\nTransfinite Curve{1} = 8;\nTransfinite Curve{2, 3} = 6;\n"
+      "Curve Loop(1) = {1, 2, 3};\nPlane Surface(1) = {1};\n"
+      "Extrude{{0.1, 0.7, 0.3}, {0.1, 0.7, 0.3}, {-3, 0, 1}, 0.7}{ Surface{1}; Layers{4}; Recombine; }\n");
+  CHECK(counts.at(kPrism) == 4);
+  CHECK(counts.at(kHexahedron) > 40);
 }

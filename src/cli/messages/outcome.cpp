@@ -86,6 +86,7 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
     }
     if (facts.even) err << report::even_line(*facts.even) << '\n';
     print_triangles(request, model, err);
+    if (facts.volumes.volumes) err << report::volume_line(facts.volumes) << '\n';
     err << report::total_line(model, output, facts.total_seconds) << '\n';
   }
   print_outcome(model, output, err);

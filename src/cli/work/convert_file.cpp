@@ -22,6 +22,7 @@
 #include "cli/work/finish_model.hpp"
 #include "cli/work/open_input.hpp"
 #include "cli/work/write_mesh.hpp"
+#include "gmsh/volumes/volumes.hpp"
 #include "gmsh/window/window.hpp"
 #include "report/stats.hpp"
 
@@ -52,7 +53,7 @@ class Conversion {
   int write();
   std::vector<SideFile> side_files(const adapter::StagedFile& mesh, const report::RunFacts& facts) const;
   int status() const {
-    return bent_.empty() && model_.count(SurfaceOutcome::left) == 0 ? all_converted : converted_in_part;
+    return faults_.empty() && model_.count(SurfaceOutcome::left) == 0 ? all_converted : converted_in_part;
   }
 
   const Call& call_;
@@ -66,7 +67,7 @@ class Conversion {
   std::optional<EvenReport> even_;
   ModelReport model_;
   bool as_it_was_ = false;
-  std::vector<std::string> bent_;  ///< surfaces that the curved edges of a higher order spoil
+  std::vector<std::string> faults_;  ///< of volumes, and of surfaces that the curved edges of a higher order spoil
 };
 
 int Conversion::run() {
@@ -80,7 +81,7 @@ int Conversion::run() {
     return no_surface;
   }
   see_what_will_be_written();
-  bent_ = finish_model(request_, opened_, session);
+  faults_ = finish_model(call_, opened_, session);
   return write();
 }
 
@@ -120,13 +121,14 @@ int Conversion::write() {
   const bool written = write_mesh(request_, plan_, opened_, as_it_was_, mesh);
   report::RunFacts facts{request_.from_stdin ? "-" : request_.input, request_.to_stdout ? "-" : plan_.path,
                          call_.arguments, status(), even_};
+  facts.volumes = adapter::count_volume_elements();
   facts.open_seconds = opened_.open_seconds;
   facts.mesh_seconds = opened_.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);
   facts.total_seconds = seconds_since(start_);
   put_in_place(written ? &mesh : nullptr, side_files(mesh, facts), call_.names());
   print_summary(request_, opened_, model_, facts, plan_.name, call_.err);
-  for (const std::string& what : bent_) call_.err << "qmorph: " << what << '\n';
+  for (const std::string& what : faults_) call_.err << "qmorph: " << what << '\n';
   if (request_.view)
     if (const std::string problem = adapter::show_in_window(plan_.path); !problem.empty())
       call_.err << "qmorph: --view: " << problem << '\n';

@@ -16,7 +16,7 @@ namespace qmorph::cli {
 /// `opened`.
 /// \throws InputError, BrokenModel
 /// \return what is not as it should be
-std::vector<std::string> finish_model(const Request& request, adapter::OpenedModel& opened, adapter::Session& session);
+std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& opened, adapter::Session& session);
 
 /// Changes of the model that the reader, or the readers of the format, ask for. \throws InputError
 void prepare_for_readers(const Call& call, const adapter::OutputPlan& plan);

@@ -11,6 +11,7 @@
 #include "cli/process/reading_limits.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/session/session.hpp"
+#include "gmsh/volumes/volumes.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::cli {

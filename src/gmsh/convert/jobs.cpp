@@ -106,8 +106,10 @@ void leave(SurfaceReport& report, const SurfaceError& error) {
 
 void leave_family(Job& job, std::size_t culprit, const SurfaceError& error, const ModelMesh& mesh) {
   const int tag = job.family->members[culprit];
-  const SurfaceError of_others(fmt::format("it is periodic with surface {}, which stays as it is", tag),
-                               {.kind = ErrorKind::periodic, .subject = surface_tag(tag)});
+  const bool extruded = job.family->link.back()->is_extrusion;
+  const SurfaceError of_others(
+      fmt::format("it is {} surface {}, which stays as it is", extruded ? "extruded with" : "periodic with", tag),
+      {.kind = ErrorKind::periodic, .subject = surface_tag(tag)});
   job.is_left_alone = true;
   for (std::size_t i = 0; i < job.reports.size(); ++i) {
     job.reports[i] = begin_report(mesh, job.entities[i]);

@@ -34,14 +34,18 @@ std::map<Index, Index> local_numbers(const SurfacePart& part) {
   return local;
 }
 
+/// "periodic with surface 3"
+std::string relation(const PeriodicLink& link) {
+  return fmt::format("{} surface {}", link.is_extrusion ? "extruded from" : "periodic with", link.master);
+}
+
 ErrorDetails periodic_with(const PeriodicLink& link) {
   return {.kind = ErrorKind::periodic, .subject = ErrorSubject{ErrorSubject::Kind::surface, std::size_t(link.master)}};
 }
 
 [[noreturn]] void refuse_image(const PeriodicLink& link) {
-  throw SurfaceError(
-      fmt::format("it is periodic with surface {}, and its mesh is not the image of that one's", link.master),
-      periodic_with(link));
+  throw SurfaceError(fmt::format("it is {}, and its mesh is not the image of that one's", relation(link)),
+                     periodic_with(link));
 }
 
 /// Local numbers of the slave's part for those of the master's.
@@ -121,8 +125,7 @@ std::vector<PeriodicFamily> find_families(const std::vector<PeriodicLink>& links
 
 void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& master, SurfaceMesh& slave) {
   if (link.transformation.size() != 16)
-    throw SurfaceError(fmt::format("it is periodic with surface {}, and nothing says how", link.master),
-                       periodic_with(link));
+    throw SurfaceError(fmt::format("it is {}, and nothing says how", relation(link)), periodic_with(link));
   const std::map<Index, Index> rows = row_map(link, mesh);
   if (slave.parts.size() != master.parts.size()) refuse_image(link);
   std::vector<SurfacePart> ordered;
@@ -133,8 +136,7 @@ void match_parts(const PeriodicLink& link, const ModelMesh& mesh, SurfaceMesh& m
     });
     if (found == slave.parts.end()) refuse_image(link);
     if (!found->patch.quads.empty() && !found->quad_tags.empty())
-      throw SurfaceError(fmt::format("it is periodic with surface {}, and has quads already", link.master),
-                         periodic_with(link));
+      throw SurfaceError(fmt::format("it is {}, and has quads already", relation(link)), periodic_with(link));
     const std::vector<Index> image = image_of_part(link, rows, part, *found);
     check_places(link, part.patch, found->patch, image);
     std::vector<Index> back(image.size());
@@ -184,6 +186,7 @@ void restore_periodicity(const ModelMesh& mesh, const std::vector<ConvertedSurfa
   if (index.empty()) return;
   std::optional<ModelMesh> now;
   for (PeriodicLink& link : links) {
+    if (link.is_extrusion) continue;
     const auto slave = index.find(link.slave), master = index.find(link.master);
     if (slave == index.end() || master == index.end()) continue;
     link.nodes.clear();
@@ -194,6 +197,7 @@ void restore_periodicity(const ModelMesh& mesh, const std::vector<ConvertedSurfa
     if (!now) now = read_model_mesh();
     add_high_order_pairs(*now, link);
   }
+  std::erase_if(links, [](const PeriodicLink& link) { return link.is_extrusion; });
   restore_links(links);
 }
 

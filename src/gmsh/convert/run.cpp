@@ -11,6 +11,7 @@
 
 #include "gmsh/convert/complaints.hpp"
 #include "gmsh/convert/stop_watch.hpp"
+#include "gmsh/model/extrusions.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/overlap.hpp"
 #include "qmorph/check.hpp"
@@ -37,12 +38,14 @@ Run::Run(Task task, const Options& options, ModelReport& report, const std::map<
       fixed_edges_(model_.mesh, model_.use) {
   if (task != Task::measure) warn_of_loose_parts(model_, report.warnings);
   links_ = read_periodic_links(model_.mesh);
-  families_ = find_families(links_);
   common_ = find_common_elements(model_.mesh, model_.use);
   local_.assign(model_.mesh.tags.size(), kNone);
 }
 
 void Run::visit(const std::vector<std::uint32_t>& entities) {
+  if (task_ == Task::convert)
+    for (PeriodicLink& link : find_extrusions(model_.mesh, entities, links_)) links_.push_back(std::move(link));
+  families_ = find_families(links_);
   std::vector<Job> jobs;
   std::set<int> done;
   for (std::uint32_t entity : entities) {

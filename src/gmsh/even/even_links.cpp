@@ -222,7 +222,7 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
       candidate.regions.push_back(region_of(side));
       graph.odd[candidate.regions.back()] = !graph.odd[candidate.regions.back()];
     }
-    if (use.volume[a] && use.volume[b]) may_split = false;
+    if (use.volume[a] != kNobody && use.volume[b] != kNobody) may_split = false;
     const auto [from, to] = std::equal_range(lines.begin(), lines.end(), Line{{a, b}, 0, 0},
                                              [](const Line& s, const Line& t) { return s.edge < t.edge; });
     for (auto line = from; line != to; ++line) {

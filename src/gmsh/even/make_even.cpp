@@ -53,7 +53,7 @@ bool bounds_volume(const ModelMesh& mesh, const NodeUse& use, const EntityMesh& 
       if (std::all_of(block.nodes.begin() + std::ptrdiff_t(i), block.nodes.begin() + std::ptrdiff_t(i) + 3,
                       [&](std::size_t tag) {
                         const Index row = mesh.rows.find(tag);
-                        return row != kNone && use.volume[row];
+                        return row != kNone && use.volume[row] != kNobody;
                       }))
         return true;
   return false;

@@ -144,7 +144,8 @@ NodeUse find_node_use(const ModelMesh& mesh, const std::vector<std::size_t>& pin
   const std::size_t count = mesh.tags.size();
   NodeUse use;
   use.surface.assign(count, kNobody);
-  for (auto* flags : {&use.several, &use.point, &use.line, &use.volume, &use.pinned}) flags->assign(count, false);
+  use.volume.assign(count, kNobody);
+  for (auto* flags : {&use.several, &use.point, &use.line, &use.pinned}) flags->assign(count, false);
   for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
     const EntityMesh& entity = mesh.entities[e];
     for (const ElementBlock& block : entity.blocks)
@@ -153,7 +154,7 @@ NodeUse find_node_use(const ModelMesh& mesh, const std::vector<std::size_t>& pin
         if (row == kNone) continue;
         if (entity.dim == 0) use.point[row] = true;
         if (entity.dim == 1) use.line[row] = true;
-        if (entity.dim == 3) use.volume[row] = true;
+        if (entity.dim == 3 && use.volume[row] == kNobody) use.volume[row] = e;
         if (entity.dim != 2) continue;
         if (use.surface[row] == kNobody) use.surface[row] = e;
         if (use.surface[row] != e) use.several[row] = true;
@@ -172,7 +173,8 @@ bool is_misclassified(const ModelMesh& mesh, const NodeUse& use) {
     if (mesh.entities[owner].dim < 2) continue;
     if (use.point[row] || use.line[row]) return true;
     // A node of a volume or of another surface, which only this one surface uses.
-    if (use.surface[row] != kNobody && use.surface[row] != owner && !use.several[row] && !use.volume[row]) return true;
+    if (use.surface[row] != kNobody && use.surface[row] != owner && !use.several[row] && use.volume[row] == kNobody)
+      return true;
   }
   return false;
 }

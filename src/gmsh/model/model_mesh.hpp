@@ -79,7 +79,8 @@ inline constexpr std::uint32_t kNobody = 0xffffffff;
 struct NodeUse {
   std::vector<std::uint32_t> surface;  ///< first entity of dimension 2 whose elements use the row, or kNobody
   std::vector<bool> several;           ///< elements of two surfaces or more use it
-  std::vector<bool> point, line, volume;
+  std::vector<std::uint32_t> volume;   ///< first entity of dimension 3 whose elements use the row, or kNobody
+  std::vector<bool> point, line;
   std::vector<bool> pinned;  ///< on a point or a curve, by owner or by use
 };
 

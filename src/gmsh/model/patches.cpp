@@ -2,6 +2,7 @@
 #include "gmsh/model/patches.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <tuple>
@@ -9,6 +10,7 @@
 
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/orientation.hpp"
+#include "gmsh/session/compat.hpp"
 #include "kernel/sort_unique.hpp"
 #include "qmorph/error.hpp"
 
@@ -78,15 +80,29 @@ Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
   return elements;
 }
 
+/// "volume 3", or "volumes 3 and 4" of a surface between two. A file without topology says it by the nodes only.
+std::string describe_volumes(const ModelMesh& mesh, const NodeUse& use, int surface, Index row) {
+  std::vector<int> volumes, unused;
+  ::gmsh::model::getAdjacencies(2, surface, volumes, unused);
+  std::erase_if(volumes, [](int volume) {
+    std::vector<int> types;
+    ::gmsh::model::mesh::getElementTypes(types, 3, volume);
+    return types.empty();
+  });
+  if (volumes.empty()) volumes.push_back(mesh.entities[use.volume[row]].tag);
+  std::sort(volumes.begin(), volumes.end());
+  return fmt::format("volume{} {}", volumes.size() == 1 ? "" : "s", fmt::join(volumes, " and "));
+}
+
 /// A volume's elements use whole triangles of the surface: quads would not fit them.
-void refuse_volume(const ModelMesh& mesh, const NodeUse& use, const Elements& elements) {
+void refuse_volume(const ModelMesh& mesh, const NodeUse& use, int surface, const Elements& elements) {
+  const auto in_volume = [&](Index row) { return use.volume[row] != kNobody; };
   for (const auto& triangle : elements.triangles)
-    if (use.volume[triangle[0]] && use.volume[triangle[1]] && use.volume[triangle[2]])
+    if (std::all_of(triangle.begin(), triangle.end(), in_volume))
       throw SurfaceError(
-          fmt::format(
-              "it bounds a volume that is meshed already (at {}), whose tetrahedra fit triangles only; --drop-volumes "
-              "removes them, and with -3 the volumes are meshed again on the quads",
-              describe_node(mesh, triangle[0])),
+          fmt::format("it bounds {}, meshed already (at {}) with elements that fit triangles only; --drop-volumes "
+                      "removes them, and with -3 the volumes are meshed again on the quads",
+                      describe_volumes(mesh, use, surface, triangle[0]), describe_node(mesh, triangle[0])),
           at_node(mesh, triangle[0], ErrorKind::volume));
 }
 
@@ -261,7 +277,7 @@ void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges
 
   for (Index i = 0; i < part.rows.size(); ++i) {
     const Index row = part.rows[i];
-    if (mesh.owner[row] != entity || use.pinned[row] || use.several[row] || use.volume[row] ||
+    if (mesh.owner[row] != entity || use.pinned[row] || use.several[row] || use.volume[row] != kNobody ||
         std::binary_search(touching.begin(), touching.end(), row))
       part.patch.fixed.push_back(i);
   }
@@ -340,7 +356,7 @@ SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedE
   SurfaceMesh surface;
   surface.entity = entity;
   const Elements elements = read_elements(mesh, mesh.entities[entity]);
-  refuse_volume(mesh, use, elements);
+  refuse_volume(mesh, use, mesh.entities[entity].tag, elements);
   const Orientation orientation = orient_surface(mesh, elements, local);
   if (orientation.flipped)
     surface.warnings.push_back(

@@ -17,6 +17,7 @@ struct PeriodicLink {
   int slave = 0, master = 0;                               ///< tags
   std::vector<double> transformation;                      ///< 4 x 4 by rows, from the master to the slave
   std::vector<std::pair<std::size_t, std::size_t>> nodes;  ///< tags: slave's, master's
+  bool is_extrusion = false;                               ///< of find_extrusions(): Gmsh does not know of it
 };
 
 /// Links between entities of one dimension of the current model, by the slave's tag.

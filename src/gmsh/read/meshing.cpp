@@ -13,7 +13,6 @@
 
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
-#include "gmsh/read/groups.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/scratch_file.hpp"
 #include "gmsh/session/session.hpp"
@@ -24,8 +23,6 @@ namespace {
 
 /// Gmsh's number of "simple": the only pairing that a script can switch off for each surface.
 constexpr double kSimplePairing = 0;
-/// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly.
-constexpr double kBlossomPairing = 1;
 
 bool has_elements(int dim, int tag) {
   std::vector<int> types;
@@ -72,13 +69,6 @@ void forbid_pairing(const std::vector<int>& surfaces) {
   }
   ::gmsh::merge(script.path());
 }
-
-/// Options that would make Gmsh recombine by itself, for the time of the meshing.
-struct RecombinationOff {
-  ScopedOption all{"Mesh.RecombineAll", 0};
-  ScopedOption algorithm{"Mesh.RecombinationAlgorithm", kBlossomPairing};
-  ScopedOption subdivision{"Mesh.SubdivisionAlgorithm", 0};
-};
 
 double area_or_one(int surface) {
   double area = 1;  // where there is no CAD kernel to ask, every surface is expected to have elements
@@ -151,30 +141,6 @@ void forgive_homology(StageLog& log) {
   std::erase_if(log.errors, [](const std::string& error) { return error.find("Cell Complex is empty") == 0; });
 }
 
-/// A volume of a file without geometry is not meshed by Gmsh; one of its built-in kernel inside the same surfaces is.
-void make_meshable(int volume) {
-  ::gmsh::vectorpair sides;
-  ::gmsh::model::getBoundary({{3, volume}}, sides, false, false);
-  if (sides.empty())
-    throw InputError(fmt::format("the file does not say what surfaces volume {} has; with MSH 4.1 it would", volume));
-  std::vector<int> surfaces, groups;
-  for (const auto& side : sides) {
-    surfaces.push_back(side.second);
-    // Gmsh crashes there.
-    if (!has_elements(2, side.second))
-      throw InputError(fmt::format("volume {} cannot be meshed: its surface {} has no elements", volume, side.second));
-  }
-  ::gmsh::model::getPhysicalGroupsForEntity(3, volume, groups);
-  const StageLog log = run_logged([&] {
-    ::gmsh::model::removeEntities({{3, volume}});
-    ::gmsh::model::geo::remove({{3, volume}});
-    ::gmsh::model::geo::addVolume({::gmsh::model::geo::addSurfaceLoop(surfaces)}, volume);
-    ::gmsh::model::geo::synchronize();
-  });
-  if (!log.errors.empty()) throw InputError(fmt::format("Gmsh cannot mesh volume {}: {}", volume, first_errors(log)));
-  for (int group : groups) add_to_group(3, group, {volume});
-}
-
 }  // namespace
 
 MeshingTask find_meshing_task(bool taken_as_it_is) {
@@ -219,38 +185,6 @@ std::vector<std::string> mesh_surfaces(const MeshingTask& task) {
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
   const std::vector<std::string> bare = check_every_surface_has_elements(log);
   log.warnings.insert(log.warnings.end(), bare.begin(), bare.end());
-  return log.warnings;
-}
-
-bool drop_volumes() {
-  ::gmsh::vectorpair volumes;
-  ::gmsh::model::getEntities(volumes, 3);
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, 3);
-  if (types.empty()) return false;
-  const StageLog log = run_logged([&] { ::gmsh::model::mesh::clear(volumes); });
-  ::gmsh::model::mesh::getElementTypes(types, 3);
-  if (!log.errors.empty() || !types.empty())
-    throw InputError("Gmsh cannot remove the volume elements: " + first_errors(log));
-  return true;
-}
-
-std::vector<std::string> mesh_volumes(bool keep_numbers) {
-  ::gmsh::vectorpair volumes;
-  ::gmsh::model::getEntities(volumes, 3);
-  if (volumes.empty()) return {"there is no volume to mesh"};
-  for (const auto& [dim, tag] : volumes)
-    if (entity_type(dim, tag).rfind("Discrete", 0) == 0 && !has_elements(dim, tag)) make_meshable(tag);
-  const StageLog log = run_logged([&] {
-    const RecombinationOff off;
-    const ScopedOption linear("Mesh.ElementOrder", 1);
-    const ScopedOption renumber("Mesh.Renumber", keep_numbers ? 0 : 1);
-    ::gmsh::model::mesh::generate(3);
-  });
-  // Elements of several volumes are in each of them then, and freed twice.
-  if (!log.errors.empty()) throw BrokenModel("Gmsh cannot mesh the volumes on these quads: " + first_errors(log));
-  for (const auto& [dim, tag] : volumes)
-    if (!has_elements(dim, tag)) throw InputError(fmt::format("Gmsh made no element in volume {}", tag));
   return log.warnings;
 }
 

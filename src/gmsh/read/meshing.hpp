@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gmsh/session/session.hpp"
+
 namespace qmorph::adapter {
 
 /// What of a model Gmsh would mesh, and what has elements already.
@@ -25,16 +27,15 @@ MeshingTask find_meshing_task(bool taken_as_it_is);
 /// \return Gmsh's warnings
 std::vector<std::string> mesh_surfaces(const MeshingTask& task);
 
-/// Removes the elements of all volumes, so that their surfaces may become quads. \return true if there were any
-bool drop_volumes();
+/// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly.
+inline constexpr double kBlossomPairing = 1;
 
-/// Meshes the volumes of the current model on its surfaces as they are: pyramids on quads, then tetrahedra. Gmsh 4.8
-/// makes pyramids in one session of a process only: after a finalize() and a second initialize() it crashes. Volumes
-/// without a geometry, too, where the model says what surfaces they have.
-/// \param keep_numbers of nodes and elements that are there
-/// \throws InputError; BrokenModel with Gmsh's own words
-/// \return Gmsh's warnings
-std::vector<std::string> mesh_volumes(bool keep_numbers);
+/// Options that would make Gmsh recombine by itself, for the time of the meshing.
+struct RecombinationOff {
+  ScopedOption all{"Mesh.RecombineAll", 0};
+  ScopedOption algorithm{"Mesh.RecombinationAlgorithm", kBlossomPairing};
+  ScopedOption subdivision{"Mesh.SubdivisionAlgorithm", 0};
+};
 
 /// What came of raising the order.
 struct RaisedModel {
