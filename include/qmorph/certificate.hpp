@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -23,7 +24,7 @@ enum class PoorBecause {
 inline constexpr std::size_t kPoorReasons = 6;
 
 /// "a boundary angle too small", ...
-std::string_view name_of(PoorBecause reason);
+QMORPH_API std::string_view name_of(PoorBecause reason);
 
 struct PoorQuad {
   Index quad = kNone;  ///< row of `QuadMesh::quads`
@@ -37,7 +38,7 @@ inline constexpr double kPoorQuad = 0.3;
 
 /// Looks at each quad of a result whose scaled Jacobian (`scaled_jacobians`, one for each quad) is below kPoorQuad.
 /// Cost: linear, and next to nothing where no quad is poor.
-std::vector<PoorQuad> explain_poor_quads(const Patch& before, const QuadMesh& after,
-                                         std::span<const double> scaled_jacobians);
+QMORPH_API std::vector<PoorQuad> explain_poor_quads(const Patch& before, const QuadMesh& after,
+                                                    std::span<const double> scaled_jacobians);
 
 }  // namespace qmorph

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -24,7 +25,8 @@ enum class InputQuads { kept, free };
 /// that has moved, elements that do not fit together, overlap, or have a corner that is not convex, a change of area;
 /// on a curved surface corners that are turned over (see QualityAccumulator), but where the surface is folded itself,
 /// nodes beside it, and holes or handles that come or go. Nothing if nothing is. Cost: linear.
-std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads = InputQuads::kept);
+QMORPH_API std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh,
+                                             InputQuads quads = InputQuads::kept);
 
 /// A quad that is inverted, or has a corner of 180 degrees or more.
 struct BadQuad {
@@ -33,12 +35,12 @@ struct BadQuad {
 };
 
 /// The first of the patch's own quads that is bad, if there is one.
-std::optional<BadQuad> find_bad_quad(const Patch& patch);
+QMORPH_API std::optional<BadQuad> find_bad_quad(const Patch& patch);
 
 /// Whether all nodes of a patch lie in one plane.
-bool is_planar(const Patch& patch);
+QMORPH_API bool is_planar(const Patch& patch);
 
 /// Unit normal that the elements of a planar patch follow: the direction of the sum of their area vectors.
-Eigen::Vector3d mean_normal(const Patch& patch);
+QMORPH_API Eigen::Vector3d mean_normal(const Patch& patch);
 
 }  // namespace qmorph

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "qmorph/error.hpp"
+#include "qmorph/export.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
 #include "qmorph/report.hpp"
@@ -34,7 +35,7 @@ struct Conversion {
 ///         no area or an element that uses a node twice, or cannot be converted without a bad element. It says where.
 /// \throws Cancelled if `Options::progress` says so; whatever it or `Options::observer` throws
 /// Cost: linear in the number of triangles.
-Conversion convert(const Patch& patch, const Options& options = {});
+QMORPH_API Conversion convert(const Patch& patch, const Options& options = {});
 
 /// Makes a better quad mesh of one that is there already, by whoever made it: triangles and quads in any share, both
 /// free to change. Triangles are paired and passed to one another as far as parity lets, then the stages of convert()
@@ -49,7 +50,7 @@ Conversion convert(const Patch& patch, const Options& options = {});
 /// \throws SurfaceError as convert() does, and where an element that is turned over cannot be turned back by moving
 /// nodes.
 /// Cost: linear in the number of elements.
-Conversion improve(const Patch& patch, const Options& options = {});
+QMORPH_API Conversion improve(const Patch& patch, const Options& options = {});
 
 /// What became of one surface of several: a conversion, or an error.
 struct Outcome {
@@ -60,7 +61,7 @@ struct Outcome {
 
 /// convert() or improve() of several surfaces side by side, on `Options::threads` threads. Outcomes are in the order of
 /// the patches. Throws nothing but what convert() throws besides SurfaceError.
-std::vector<Outcome> convert_all(const std::vector<const Patch*>& patches, const Options& options = {});
-std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options = {});
+QMORPH_API std::vector<Outcome> convert_all(const std::vector<const Patch*>& patches, const Options& options = {});
+QMORPH_API std::vector<Outcome> improve_all(const std::vector<const Patch*>& patches, const Options& options = {});
 
 }  // namespace qmorph

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "qmorph/export.hpp"
+
 namespace qmorph {
 
 enum class ErrorKind {
@@ -47,7 +49,7 @@ struct ErrorDetails {
 };
 
 /// Base of every exception of this library. `what()` is one line that a user can act on.
-class Error : public std::runtime_error {
+class QMORPH_API Error : public std::runtime_error {
  public:
   Error(const std::string& what, ErrorDetails details) : std::runtime_error(what), details_(std::move(details)) {}
   ErrorKind kind() const { return details_.kind; }
@@ -60,35 +62,35 @@ class Error : public std::runtime_error {
 };
 
 /// An option or an argument makes no sense.
-class UsageError : public Error {
+class QMORPH_API UsageError : public Error {
  public:
   explicit UsageError(const std::string& what, ErrorDetails details = {.kind = ErrorKind::usage})
       : Error(what, std::move(details)) {}
 };
 
 /// The input cannot be opened, read or meshed.
-class InputError : public Error {
+class QMORPH_API InputError : public Error {
  public:
   explicit InputError(const std::string& what, ErrorDetails details = {.kind = ErrorKind::input})
       : Error(what, std::move(details)) {}
 };
 
 /// One surface cannot be converted, and is left as it was.
-class SurfaceError : public Error {
+class QMORPH_API SurfaceError : public Error {
  public:
   explicit SurfaceError(const std::string& what, ErrorDetails details = {.kind = ErrorKind::surface})
       : Error(what, std::move(details)) {}
 };
 
 /// The output cannot be written. A file of the same name is as it was before.
-class OutputError : public Error {
+class QMORPH_API OutputError : public Error {
  public:
   explicit OutputError(const std::string& what, ErrorDetails details = {.kind = ErrorKind::output})
       : Error(what, std::move(details)) {}
 };
 
 /// `Options::progress` has ended the work. Nothing has changed.
-class Cancelled : public Error {
+class QMORPH_API Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled", {.kind = ErrorKind::cancelled}) {}
 };

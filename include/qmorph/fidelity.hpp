@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -25,7 +26,7 @@ struct Fidelity {
 };
 
 /// Collects surfaces, then gives the figures of all of them together.
-class FidelityAccumulator {
+class QMORPH_API FidelityAccumulator {
  public:
   /// Adds a surface, if it is curved. Cost: linear.
   void add(const Patch& before, const QuadMesh& after);

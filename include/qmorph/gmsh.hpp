@@ -16,6 +16,7 @@
 
 #include "qmorph/certificate.hpp"
 #include "qmorph/error.hpp"
+#include "qmorph/export.hpp"
 #include "qmorph/fidelity.hpp"
 #include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
@@ -50,7 +51,7 @@ struct SurfaceReport {
 };
 
 /// The whole model.
-struct ModelReport {
+struct QMORPH_API ModelReport {
   std::vector<SurfaceReport> surfaces;  ///< by tag; surfaces without an element are not listed
   std::vector<std::string> warnings;
   Quality total;      ///< of the converted and the all-quad surfaces together
@@ -90,22 +91,22 @@ namespace session {
 ///         `Options::observer` throw; the mesh is unchanged then. (Nodes that a file gives to entities which do not use
 ///         them may belong to others already, which Gmsh calls reclassification.)
 /// Cost: linear in the size of the model.
-ModelReport recombine(const Options& options = {}, const std::vector<int>& surfaces = {});
+QMORPH_API ModelReport recombine(const Options& options = {}, const std::vector<int>& surfaces = {});
 
 /// The same for surfaces that consist of quads already, or of quads and triangles, as Gmsh's own recombination leaves
 /// them: all their elements may change, and what comes out has better quads (see `improve()` of qmorph/convert.hpp).
 /// Surfaces come out as converted or left.
-ModelReport improve_quads(const Options& options = {}, const std::vector<int>& surfaces = {});
+QMORPH_API ModelReport improve_quads(const Options& options = {}, const std::vector<int>& surfaces = {});
 
 /// Figures of surfaces as they are; nothing changes. Surfaces come out as already_quads, whatever they consist of,
 /// those that have no figures (not a manifold, no orientation) with a reason.
 /// \param before surfaces by tag, as read_surfaces() gives them: where one of the same tag is given, the report has its
 ///        `fidelity` to that, flat or curved
-ModelReport measure_surfaces(const std::vector<int>& surfaces = {}, const std::map<int, Patch>& before = {});
+QMORPH_API ModelReport measure_surfaces(const std::vector<int>& surfaces = {}, const std::map<int, Patch>& before = {});
 
 /// Surfaces of the current model by tag, each as one patch without constraints, to measure another mesh of them
 /// against. Those that have no orientation or are no manifolds are not there.
-std::map<int, Patch> read_surfaces(const std::vector<int>& surfaces = {});
+QMORPH_API std::map<int, Patch> read_surfaces(const std::vector<int>& surfaces = {});
 
 /// Splits edges of curves, and the triangles beside them, so that every region (see `convert()`) gets an even number of
 /// sides: `recombine()` leaves no triangle then. It is the only call that changes curves. Existing nodes stay.
@@ -113,7 +114,7 @@ std::map<int, Patch> read_surfaces(const std::vector<int>& surfaces = {});
 /// \param keep_curves tags of curves that get no node
 /// \throws UsageError for a surface or a curve that the model does not have; InputError as `recombine()` does. The
 ///         model is unchanged then.
-EvenReport make_even(const std::vector<int>& surfaces = {}, const std::vector<int>& keep_curves = {});
+QMORPH_API EvenReport make_even(const std::vector<int>& surfaces = {}, const std::vector<int>& keep_curves = {});
 
 }  // namespace session
 }  // namespace qmorph

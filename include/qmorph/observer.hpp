@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include "qmorph/export.hpp"
 #include "qmorph/index.hpp"
 #include "qmorph/patch.hpp"
 
@@ -85,7 +86,7 @@ struct FrontStep {
 };
 
 /// Sees the steps of one front, one after another, at the end of each.
-class FrontObserver {
+class QMORPH_API FrontObserver {
  public:
   virtual ~FrontObserver() = default;
   virtual void step(const FrontStep& step) = 0;
@@ -99,7 +100,7 @@ enum class Stage { input, front, elimination, smoothing, cleanup, final_smoothin
 inline constexpr std::size_t kStages = 7;
 
 /// "final smoothing"
-const char* name_of(Stage stage);
+QMORPH_API const char* name_of(Stage stage);
 
 /// A surface after a stage; after one that was not run it is as after the one before. Valid during the call.
 struct StageView {
@@ -116,7 +117,7 @@ struct StageView {
 // --- who watches ----------------------------------------------------------------------------------------
 
 /// `Options::observer`. What it throws comes out of the call that it watches, as with `Options::progress`.
-class Observer {
+class QMORPH_API Observer {
  public:
   virtual ~Observer() = default;
 

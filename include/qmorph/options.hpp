@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "qmorph/export.hpp"
+
 namespace qmorph {
 
 class Observer;
@@ -135,9 +137,9 @@ struct Options {
 /// Sets one number by its name, as `--set NAME=VALUE` of the command does: the constants of the thesis by the thesis'
 /// names, others as "cleanup.pattern_rounds". Angles are in degrees here, switches are 0 or 1.
 /// \throws UsageError if there is no such name or the value is out of range
-void set_option(Options& options, std::string_view name, double value);
+QMORPH_API void set_option(Options& options, std::string_view name, double value);
 
 /// The names that `set_option` knows.
-std::vector<std::string> option_names();
+QMORPH_API std::vector<std::string> option_names();
 
 }  // namespace qmorph

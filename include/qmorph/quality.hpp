@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/index.hpp"
 
 namespace qmorph {
@@ -48,31 +49,31 @@ using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 /// Scaled Jacobian of a quad in the plane with unit normal `normal`: the smallest over its corners of the sine of the
 /// corner angle, signed [Verdict]. 1 for rectangles, 0 for a corner of 180 degrees or two corners at one place,
 /// negative for a reflex corner. -1 where a coordinate is NaN.
-double scaled_jacobian(const QuadCorners& corners, const Eigen::Vector3d& normal);
+QMORPH_API double scaled_jacobian(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
 /// The same for a triangle: the sine of its smallest angle, negative if it is inverted. At most sin 60 degrees.
-double scaled_jacobian(const TriangleCorners& corners, const Eigen::Vector3d& normal);
+QMORPH_API double scaled_jacobian(const TriangleCorners& corners, const Eigen::Vector3d& normal);
 
 /// Interior angles in degrees, from 0 to 360, seen against `normal`; 0 where an edge has no length.
-std::array<double, 4> corner_angles_deg(const QuadCorners& corners, const Eigen::Vector3d& normal);
+QMORPH_API std::array<double, 4> corner_angles_deg(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
 /// max(0, 1 - max |90 - angle| / 90) [Gmsh].
-double eta(const QuadCorners& corners, const Eigen::Vector3d& normal);
+QMORPH_API double eta(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
 /// The smallest metric of the four triangles that the two diagonals make, less 1 if two of them are inverted or a
 /// corner is under 6 degrees, less 2 for three, less 3 for four [thesis]. 1 for a square.
-double thesis_metric(const QuadCorners& corners, const Eigen::Vector3d& normal);
+QMORPH_API double thesis_metric(const QuadCorners& corners, const Eigen::Vector3d& normal);
 
 /// Metric of a triangle: 1 if its sides are equal, negative if it is inverted [thesis, eq. 2.1].
-double thesis_metric(const TriangleCorners& corners, const Eigen::Vector3d& normal);
+QMORPH_API double thesis_metric(const TriangleCorners& corners, const Eigen::Vector3d& normal);
 
 /// The valence that stands for a boundary node with `edges` edges and the interior angle `angle_deg`: two more
 /// up to 135 degrees, one more up to 225, else as it is [thesis, glossary].
-int boundary_valence(int edges, double angle_deg);
+QMORPH_API int boundary_valence(int edges, double angle_deg);
 
 /// Collects surfaces, then gives the figures of all of them together. The cost is linear in the number of elements;
 /// sums run in the order of the elements, so the figures are the same on every run.
-class QualityAccumulator {
+class QMORPH_API QualityAccumulator {
  public:
   /// Adds a surface. `normal` is the unit normal that its elements follow.
   void add(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
@@ -105,7 +106,7 @@ class QualityAccumulator {
 };
 
 /// Figures of one surface.
-Quality measure(const QuadMesh& mesh, const Eigen::Vector3d& normal);
-Quality measure(const QuadMesh& mesh);  ///< the normal as `QualityAccumulator::add` finds it
+QMORPH_API Quality measure(const QuadMesh& mesh, const Eigen::Vector3d& normal);
+QMORPH_API Quality measure(const QuadMesh& mesh);  ///< the normal as `QualityAccumulator::add` finds it
 
 }  // namespace qmorph

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "qmorph/export.hpp"
+
 namespace qmorph {
 
 /// Where one triangle was: how long the quad is that is there now, over the triangle's sides, in the direction in which
@@ -15,7 +17,7 @@ struct DirectedSize {
 
 /// Counts and times of one conversion, or of several (`add`). Times are in seconds of the clock, of all regions
 /// together.
-struct ConversionReport {
+struct QMORPH_API ConversionReport {
   std::size_t regions = 0;             ///< sets of triangles joined through edges that are no constraints
   std::size_t odd_regions = 0;         ///< regions with an odd number of boundary sides: one triangle stays in each
   std::size_t worse_regions = 0;       ///< of improve(): got worse quads, since triangles had to go

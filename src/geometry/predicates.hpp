@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "geometry/vec2.hpp"
+#include "qmorph/export.hpp"
 
 namespace qmorph {
 
@@ -12,7 +13,7 @@ namespace qmorph {
 /// Laws: the same for every rotation of the arguments, opposite when two are exchanged.
 /// Exact unless a product of two coordinates over- or underflows. Floating-point filter after
 /// [Shewchuk97], then an exact sum of the six products.
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+QMORPH_API int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 
 /// A corner whose sine is not above this is straight, closed or turned over: an element with such a corner is
 /// not valid. Far above the rounding of coordinates that were turned into their plane, far below what a

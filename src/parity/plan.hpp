@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/index.hpp"
 
 namespace qmorph::parity {
@@ -31,6 +32,6 @@ struct Plan {
 
 /// The fewest splits, and of those with as few the ones on the longest edges. As many regions become even as the links
 /// allow. Exact. Cost: (odd regions) * (links) * log, and the matching of the odd regions.
-Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links);
+QMORPH_API Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links);
 
 }  // namespace qmorph::parity

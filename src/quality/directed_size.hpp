@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 #include "qmorph/report.hpp"
 
@@ -16,14 +17,14 @@ namespace qmorph {
 /// are 1 then, and so are all sides of a rectangle that is cut in halves. Where the triangles around are not stretched
 /// in one direction, S is the mean of theirs, since a thin one among them means nothing.
 /// Cost: a search for each quad in a tree of what was chosen, which takes some 50 ns.
-std::vector<DirectedSize> directed_sizes(const Patch& before, const std::vector<Eigen::Vector3d>& points,
-                                         std::span<const std::array<Index, 4>> quads);
+QMORPH_API std::vector<DirectedSize> directed_sizes(const Patch& before, const std::vector<Eigen::Vector3d>& points,
+                                                    std::span<const std::array<Index, 4>> quads);
 
 /// Median of each of the two; 1 if there is nothing.
-DirectedSize median(const std::vector<DirectedSize>& sizes);
+QMORPH_API DirectedSize median(const std::vector<DirectedSize>& sizes);
 
 /// The larger of the two, each of them or its inverse, whichever is above 1.
-double largest_ratio(const DirectedSize& size);
+QMORPH_API double largest_ratio(const DirectedSize& size);
 
 /// More than that, and sizes are not kept.
 inline constexpr double kLargestSizeRatio = 1.5;

@@ -3,9 +3,11 @@
 
 #include <vector>
 
+#include "qmorph/export.hpp"
+
 namespace qmorph {
 
 /// numpy's default percentile: linear between the two nearest ranks. Reorders `values`, of which there is at least one.
-double percentile(std::vector<double>& values, double percent);
+QMORPH_API double percentile(std::vector<double>& values, double percent);
 
 }  // namespace qmorph

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
 #include "space/corners.hpp"
@@ -35,7 +36,7 @@ std::optional<Eigen::Vector3d> common_normal(const SurfaceElements& mesh);
 /// The unit normal of a surface whose nodes lie in one plane, as far as the engine takes it for one.
 std::optional<Eigen::Vector3d> plane_normal(const Patch& patch);
 
-class Shapes {
+class QMORPH_API Shapes {
  public:
   /// Elements in a plane with this unit normal.
   Shapes(const SurfaceElements& mesh, const Eigen::Vector3d& normal);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -19,8 +20,8 @@ struct Side {
 };
 
 /// All sides in the order of (low, high, element). Linear for meshes: a bucket for each node, a few sides in each.
-std::vector<Side> sorted_sides(std::size_t points, std::span<const std::array<Index, 3>> triangles,
-                               std::span<const std::array<Index, 4>> quads);
+QMORPH_API std::vector<Side> sorted_sides(std::size_t points, std::span<const std::array<Index, 3>> triangles,
+                                          std::span<const std::array<Index, 4>> quads);
 
 /// Calls `visit(std::span<const Side>)` for each edge with the sides that lie on it. \pre they follow one another; of
 /// any kind of side with `low` and `high`

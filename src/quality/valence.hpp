@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -19,7 +20,7 @@ struct NodeDegrees {
 
 /// Counts distinct edges, so the figures mean something on a broken mesh too. Linear: edges are sorted into
 /// one bucket for each node, and a bucket holds a handful.
-NodeDegrees node_degrees(std::size_t node_count, std::span<const std::array<Index, 3>> triangles,
-                         std::span<const std::array<Index, 4>> quads);
+QMORPH_API NodeDegrees node_degrees(std::size_t node_count, std::span<const std::array<Index, 3>> triangles,
+                                    std::span<const std::array<Index, 4>> quads);
 
 }  // namespace qmorph

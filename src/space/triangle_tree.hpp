@@ -6,13 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "space/background.hpp"
 
 namespace qmorph::space {
 
 /// Finds the closest of many triangles to any point, without a hint. Arrays that it is made of must outlive it.
 /// Cost: n log n to make, about log n for a point.
-class TriangleTree {
+class QMORPH_API TriangleTree {
  public:
   TriangleTree(std::span<const Eigen::Vector3d> points, std::span<const Background::Triangle> triangles);
 

@@ -103,7 +103,9 @@ TEST_CASE("messages: files of a format in which Gmsh finds nothing are no meshes
     write_file(directory / name, "hello world\n");
     const Result result = run_qmorph({directory / name, "-o", directory / "out.msh"});
     CHECK(result.status == 2);
-    CHECK(mentions(result.err, "is it of the format that its name says?"));
+    // Newer versions of Gmsh say themselves what is wrong with some of them.
+    const bool gmsh_says_why = mentions(result.err, "Unknown Medit mesh format");
+    CHECK((gmsh_says_why || mentions(result.err, "is it of the format that its name says?")));
     CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
   }
   write_file(directory / "in.xyz", std::string("\1\0\2", 3));

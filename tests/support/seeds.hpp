@@ -8,10 +8,11 @@
 
 namespace qmorph::test {
 
-/// `usual`, or fewer or more when QMORPH_DOMAINS is not 1000, in proportion.
-inline std::uint64_t seeds(std::uint64_t usual) {
+/// `usual`, or fewer or more when QMORPH_DOMAINS is not 1000, in proportion, but no fewer than `least`: laws about sums
+/// need a sample that is large enough for them.
+inline std::uint64_t seeds(std::uint64_t usual, std::uint64_t least = 1) {
   const char* text = std::getenv("QMORPH_DOMAINS");
-  return text ? std::max<std::uint64_t>(1, usual * std::strtoull(text, nullptr, 10) / 1000) : usual;
+  return text ? std::max<std::uint64_t>(least, usual * std::strtoull(text, nullptr, 10) / 1000) : usual;
 }
 
 }  // namespace qmorph::test
