@@ -25,8 +25,9 @@ enum class InputQuads { kept, free };
 /// that has moved, elements that do not fit together, overlap, or have a corner that is not convex, a change of area;
 /// on a curved surface corners that are turned over (see QualityAccumulator), but where the surface is folded itself,
 /// nodes beside it, and holes or handles that come or go. Nothing if nothing is. Cost: linear.
+/// \param beside how far from the triangles of a curved patch a node may be, in sides of an element
 QMORPH_API std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh,
-                                             InputQuads quads = InputQuads::kept);
+                                             InputQuads quads = InputQuads::kept, double beside = 1e-6);
 
 /// A quad that is inverted, or has a corner of 180 degrees or more.
 struct BadQuad {

@@ -32,6 +32,14 @@ enum class SurfaceOutcome {
   left,           ///< it could not be converted and is as it was; `reason` says why
 };
 
+/// Where the nodes lie that a curved surface of a geometry has got, or one whose triangles are curved themselves. Other
+/// surfaces have none: the triangles are all there is.
+struct OnGeometry {
+  std::size_t nodes = 0;  ///< that are new or have moved, on it
+  std::size_t left =
+      0;  ///< that stay on the triangles: an element would be spoiled, or there is no way to the geometry
+};
+
 /// One surface, before and after.
 struct SurfaceReport {
   int tag = 0;
@@ -46,6 +54,7 @@ struct SurfaceReport {
   Fidelity fidelity;            ///< of a curved surface that was converted, or of one measured against another
   std::vector<PoorQuad> poor;   ///< why those of its quads that are poor are so; rows count through the surface's parts
   ConversionReport conversion;  ///< of converted: what was done
+  OnGeometry on_geometry;
   int image_of = 0;  ///< the surface whose quads it has, if periodic with or extruded from one; else 0
   double seconds = 0;
 };
@@ -56,6 +65,7 @@ struct QMORPH_API ModelReport {
   std::vector<std::string> warnings;
   Quality total;      ///< of the converted and the all-quad surfaces together
   Fidelity fidelity;  ///< of those surfaces that have one together
+  OnGeometry on_geometry;
   double read_seconds = 0, convert_seconds = 0, check_seconds = 0, replace_seconds = 0;
 
   std::size_t count(SurfaceOutcome outcome) const;

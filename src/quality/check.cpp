@@ -212,7 +212,7 @@ std::optional<BadQuad> find_bad_quad(const Patch& patch) {
   return {};
 }
 
-std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads) {
+std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads, double beside) {
   if (Finding defect = find_bad_reference(patch, mesh)) return defect;
   const std::vector<Index> rows = result_rows(patch, mesh);
   for (Index node : patch.fixed)
@@ -222,7 +222,7 @@ std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, Inpu
   if (kept)
     if (Finding defect = find_changed_quad(patch, mesh, rows)) return defect;
 
-  if (!is_planar(patch)) return space::find_defect(patch, mesh, kept ? patch.quads.size() : 0);
+  if (!is_planar(patch)) return space::find_defect(patch, mesh, kept ? patch.quads.size() : 0, beside);
   const Eigen::Vector3d normal = mean_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);

@@ -48,6 +48,13 @@ std::string distance(const Fidelity& fidelity) {
                      fidelity.centre.max);
 }
 
+/// "; nodes on the geometry", and how many are not.
+std::string on_geometry(const OnGeometry& nodes) {
+  if (nodes.nodes + nodes.left == 0) return "";
+  if (nodes.left == 0) return "; nodes on the geometry";
+  return fmt::format("; nodes on the geometry but {} of {}", nodes.left, nodes.nodes + nodes.left);
+}
+
 std::string sizes(const std::vector<DirectedSize>& all) {
   if (all.empty()) return "";
   const DirectedSize size = median(all);
@@ -96,9 +103,9 @@ std::string total_line(const ModelReport& model, const std::string& output, doub
     triangles_out += surface.triangles_out;
     quads_out += surface.quads_out;
   }
-  return fmt::format("total: {} -> {}; {}{}{}; {:.2f} s; {}", elements(triangles_in, quads_in),
+  return fmt::format("total: {} -> {}; {}{}{}{}; {:.2f} s; {}", elements(triangles_in, quads_in),
                      elements(triangles_out, quads_out), figures(model.total, quads_out), distance(model.fidelity),
-                     poor(model), seconds, output);
+                     on_geometry(model.on_geometry), poor(model), seconds, output);
 }
 
 std::string volume_line(const adapter::VolumeCounts& volumes) {

@@ -16,9 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of an element's size: how far from the surface rounding may bring a node.
-constexpr double kOffSurface = 1e-6;
-
 template <std::size_t N>
 constexpr double kLeastSine = N == 3 ? kDegenerateSine : kStraightSine;
 
@@ -54,7 +51,7 @@ std::size_t bad_corner(const std::array<double, N>& sines) {
 }
 
 template <std::size_t N>
-std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes) {
+std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes, double beside) {
   const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
   const std::size_t corner = bad_corner(result.sines(element, p, nodes));
   if (corner < N && !is_folded_under(result.surface(), result.normals(), p, result.triangle(element)))
@@ -63,7 +60,7 @@ std::optional<Defect> look_at(const Result& result, Index element, const std::ar
     const Index row = result.mesh().source[nodes[i]];
     if (row != kNone && result.surface().point(row) == p[i]) continue;
     const double length2 = (p[(i + 1) % N] - p[i]).squaredNorm();
-    if (!(result.foot(element, nodes[i]).distance2 <= kOffSurface * kOffSurface * length2))
+    if (!(result.foot(element, nodes[i]).distance2 <= beside * beside * length2))
       return defect_at("a node has left the surface", p[i]);
   }
   return {};
@@ -92,13 +89,13 @@ bool is_folded_under(const Background& surface, const SurfaceNormals& normals, c
 template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<3>&, Index);
 template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<4>&, Index);
 
-std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept) {
+std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept, double beside) {
   const Result result(before, after);
   const Index triangles = Index(after.triangles.size());
   for (Index t = 0; t < triangles; ++t)
-    if (auto defect = look_at(result, t, after.triangles[t])) return defect;
+    if (auto defect = look_at(result, t, after.triangles[t], beside)) return defect;
   for (Index q = Index(kept); q < after.quads.size(); ++q)
-    if (auto defect = look_at(result, triangles + q, after.quads[q])) return defect;
+    if (auto defect = look_at(result, triangles + q, after.quads[q], beside)) return defect;
   if (characteristic(before.points.size(), before.triangles, before.quads) !=
       characteristic(after.points.size(), after.triangles, after.quads))
     return Defect{"a handle or a hole has come or gone", {}};

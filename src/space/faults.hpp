@@ -18,7 +18,8 @@ bool is_folded_under(const Background& surface, const SurfaceNormals& normals, c
 /// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned
 /// over (not those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface,
 /// handles or holes that come or go. Cost: linear.
-std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept);
+/// \param beside how far from the surface a node may be, in sides of an element
+std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept, double beside);
 
 /// A quad of a curved patch that is turned over among its neighbours or has a corner of 180 degrees or more, or kNone;
 /// `corner` gets the node.

@@ -41,6 +41,9 @@ void Figures::add_result(const ConvertedSurface& converted, SurfaceReport& repor
   report.fidelity = fidelity.result();
   report.quality = quality.result();
   report.conversion = converted.report;
+  report.on_geometry = converted.on_geometry;
+  on_geometry_.nodes += converted.on_geometry.nodes;
+  on_geometry_.left += converted.on_geometry.left;
   report.warnings = converted.surface.warnings;
   if (std::string lost = describe_lost_size(report.conversion.sizes); !lost.empty())
     report.warnings.push_back(std::move(lost));
@@ -77,6 +80,7 @@ void Figures::add_as_it_is(const SurfaceMesh& surface, const Patch* before, Surf
 void Figures::put_into(ModelReport& report) const {
   report.total = total_.result();
   report.fidelity = fidelity_.result();
+  report.on_geometry = on_geometry_;
   const Quality before = total_before_.result();
   const bool said = std::any_of(report.surfaces.begin(), report.surfaces.end(),
                                 [](const SurfaceReport& surface) { return surface.conversion.worse_regions > 0; });

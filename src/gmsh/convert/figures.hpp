@@ -25,6 +25,7 @@ class Figures {
   QualityAccumulator total_;
   QualityAccumulator total_before_;  ///< of quads that were to be improved
   FidelityAccumulator fidelity_;
+  OnGeometry on_geometry_;
 };
 
 }  // namespace qmorph::adapter

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <set>
@@ -79,19 +80,33 @@ std::vector<std::size_t> tags_of_removed(const ModelMesh& mesh, const std::vecto
   return tags;
 }
 
+/// Parameters of a node of the result, or NaN.
+Eigen::Vector2d parameters_of(const ModelMesh& mesh, const ConvertedSurface& converted, std::size_t part, Index node) {
+  if (converted.parameters.empty()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Vector2d& found = converted.parameters[part][node];
+  const EntityMesh& before = mesh.entities[converted.surface.entity];
+  const Index source = converted.results[part].source[node];
+  if (!std::isnan(found.x()) || source == kNone || before.uv.empty()) return found;
+  const Index row = converted.surface.parts[part].rows[source] - mesh.rows.find(before.node_tags.front());
+  return {before.uv[2 * row], before.uv[2 * row + 1]};
+}
+
 /// Tags of the nodes of one part's result. Those that the surface owns, and new ones, go into `entity`.
-std::vector<std::size_t> place_nodes(const ModelMesh& mesh, std::uint32_t owner, const SurfacePart& part,
-                                     const QuadMesh& result, bool several_parts, TagPool& node_tags,
-                                     std::set<Index>& placed, EntityMesh& entity) {
+std::vector<std::size_t> place_nodes(const ModelMesh& mesh, const ConvertedSurface& converted, std::size_t p,
+                                     TagPool& node_tags, std::set<Index>& placed, EntityMesh& entity) {
+  const SurfacePart& part = converted.surface.parts[p];
+  const QuadMesh& result = converted.results[p];
   std::vector<std::size_t> tags(result.points.size());
   for (Index i = 0; i < result.points.size(); ++i) {
     const Index row = result.source[i] == kNone ? kNone : part.rows[result.source[i]];
     tags[i] = row == kNone ? node_tags.next() : mesh.tags[row];
-    if (row != kNone && mesh.owner[row] != owner) continue;
+    if (row != kNone && mesh.owner[row] != converted.surface.entity) continue;
     // Parts of one surface may touch at a node that the surface owns.
-    if (several_parts && row != kNone && !placed.insert(row).second) continue;
+    if (converted.results.size() > 1 && row != kNone && !placed.insert(row).second) continue;
     entity.node_tags.push_back(tags[i]);
     entity.xyz.insert(entity.xyz.end(), result.points[i].data(), result.points[i].data() + 3);
+    const Eigen::Vector2d parameters = parameters_of(mesh, converted, p, i);
+    entity.uv.insert(entity.uv.end(), parameters.data(), parameters.data() + 2);
   }
   return tags;
 }
@@ -107,7 +122,8 @@ ElementBlock new_block(int type, std::size_t nodes_per_element) {
 void parametrise(EntityMesh& entity) {
   std::vector<double> uv;
   const StageLog log = run_logged([&] { ::gmsh::model::getParametrization(2, entity.tag, entity.xyz, uv); });
-  if (log.errors.empty() && uv.size() == 2 * entity.node_tags.size()) entity.uv = std::move(uv);
+  if (!log.errors.empty() || uv.size() != 2 * entity.node_tags.size()) uv.clear();
+  entity.uv = std::move(uv);
 }
 
 /// Quads of order 2 have 8 nodes if others of the model have, and 9 if nothing speaks against it.
@@ -129,8 +145,7 @@ EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted,
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const SurfacePart& part = converted.surface.parts[p];
     const QuadMesh& result = converted.results[p];
-    const auto tags = place_nodes(mesh, converted.surface.entity, part, result, converted.results.size() > 1, node_tags,
-                                  placed, entity);
+    const auto tags = place_nodes(mesh, converted, p, node_tags, placed, entity);
     part_tags.push_back(tags);
     for (const auto& triangle : result.triangles)
       for (Index i : triangle) triangles.nodes.push_back(tags[i]);
@@ -145,8 +160,9 @@ EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted,
       if (tag == 0) tag = element_tags.next();
     if (!block->tags.empty()) entity.blocks.push_back(std::move(*block));
   }
+  if (std::any_of(entity.uv.begin(), entity.uv.end(), [](double u) { return std::isnan(u); })) entity.uv.clear();
   if (order_of(before) > 1) raise_order(mesh, before, wants_incomplete(mesh), entity, [&] { return node_tags.next(); });
-  if (!before.uv.empty()) parametrise(entity);
+  if (!before.uv.empty() && entity.uv.size() != 2 * entity.node_tags.size()) parametrise(entity);
   return entity;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 /// Puts converted surfaces back into the current Gmsh model.
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/model/patches.hpp"
+#include "qmorph/gmsh.hpp"
 #include "qmorph/patch.hpp"
 #include "qmorph/report.hpp"
 
@@ -16,6 +18,9 @@ struct ConvertedSurface {
   SurfaceMesh surface;
   std::vector<QuadMesh> results;
   ConversionReport report{};  ///< of all parts together
+  /// Of each part's nodes those on the surface of a geometry, NaN for what stays from the input; empty: not known.
+  std::vector<std::vector<Eigen::Vector2d>> parameters{};
+  OnGeometry on_geometry{};
 };
 
 /// Node tags of the results of one surface's parts.

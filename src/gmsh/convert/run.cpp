@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "gmsh/convert/complaints.hpp"
 #include "gmsh/convert/stop_watch.hpp"
+#include "gmsh/geometry/cad_surface.hpp"
 #include "gmsh/model/extrusions.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/overlap.hpp"
@@ -21,10 +23,18 @@
 namespace qmorph::adapter {
 namespace {
 
+/// In sides of an element: how far nodes may be from the triangles, by rounding and where a geometry arches over them.
+constexpr double kOnTriangles = 1e-6, kOnGeometry = 1;
+
 /// The quads of a surface may change.
 void free_quads(SurfaceMesh& surface) {
   surface.quads_may_go = true;
   for (SurfacePart& part : surface.parts) part.quad_tags.clear();
+}
+
+/// What the surface's triangles stand for, if that is anything but themselves.
+std::unique_ptr<Shape> find_shape(const ModelMesh& mesh, std::uint32_t entity) {
+  return CadSurface::find(mesh, entity);
 }
 
 }  // namespace
@@ -122,6 +132,7 @@ Job Run::begin_family(const PeriodicFamily& family, const std::vector<std::uint3
 void Run::finish_alone(Job& job) {
   StopWatch watch;
   try {
+    settle(job.converted[0], Onto::shape);
     accept(std::move(job.converted[0]), job.reports[0]);
   } catch (const SurfaceError& error) {
     leave(job.reports[0], error);
@@ -141,7 +152,7 @@ void Run::finish_family(Job& job) {
         job.converted[at].report = master.report;
         job.reports[at].image_of = family.members[0];
       }
-      check(job.converted[at]);
+      settle(job.converted[at], at == 0 ? Onto::shape : Onto::nothing);
     }
     for (at = 0; at < job.converted.size(); ++at) accept(std::move(job.converted[at]), job.reports[at]);
     job.reports[0].seconds += watch.lap();
@@ -170,11 +181,11 @@ ConvertedSurface Run::read(std::uint32_t entity) {
 }
 
 /// \throws SurfaceError
-void Run::check(const ConvertedSurface& converted) const {
+void Run::check(const ConvertedSurface& converted, double beside) const {
   const InputQuads quads_are = task_ == Task::convert ? InputQuads::kept : InputQuads::free;
   for (std::size_t p = 0; p < converted.results.size(); ++p) {
     const SurfacePart& part = converted.surface.parts[p];
-    if (const std::optional<Defect> defect = find_defect(part.patch, converted.results[p], quads_are))
+    if (const std::optional<Defect> defect = find_defect(part.patch, converted.results[p], quads_are, beside))
       throw SurfaceError("the result is not valid: " + defect->what + "; this is a mistake of qmorph",
                          {.kind = ErrorKind::no_valid_mesh, .place = defect->place});
     const std::string where =
@@ -185,9 +196,29 @@ void Run::check(const ConvertedSurface& converted) const {
   }
 }
 
+/// The last word on where nodes are. An image has the places of its master's nodes, but parameters of its own.
+/// \throws SurfaceError
+void Run::settle(ConvertedSurface& converted, Onto onto) {
+  StopWatch watch;
+  if (onto == Onto::shape) check(converted, kOnTriangles);
+  if (const std::unique_ptr<Shape> shape = find_shape(model_.mesh, converted.surface.entity)) {
+    const std::vector<QuadMesh> on_triangles = converted.results;
+    put_onto(*shape, onto, converted);
+    try {
+      check(converted, kOnGeometry);
+    } catch (const SurfaceError&) {
+      if (onto == Onto::nothing) throw;
+      converted.results = on_triangles;
+      converted.on_geometry = {0, converted.on_geometry.nodes + converted.on_geometry.left};
+    }
+  } else if (onto == Onto::nothing) {
+    check(converted, kOnTriangles);
+  }
+  report_.check_seconds += watch.lap();
+}
+
 void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   StopWatch watch;
-  check(converted);
   report.outcome = SurfaceOutcome::converted;
   figures_.add_result(converted, report);
   if (task_ == Task::improve) figures_.compare_with_input(converted, report);

@@ -11,6 +11,7 @@
 #include "gmsh/convert/jobs.hpp"
 #include "gmsh/convert/periodic.hpp"
 #include "gmsh/convert/replace.hpp"
+#include "gmsh/geometry/onto_geometry.hpp"
 #include "gmsh/model/patches.hpp"
 #include "qmorph/gmsh.hpp"
 
@@ -35,7 +36,8 @@ class Run {
   void finish_alone(Job& job);
   void finish_family(Job& job);
   ConvertedSurface read(std::uint32_t entity);
-  void check(const ConvertedSurface& converted) const;
+  void settle(ConvertedSurface& converted, Onto onto);
+  void check(const ConvertedSurface& converted, double beside) const;
   void accept(ConvertedSurface converted, SurfaceReport& report);
   void look_at(std::uint32_t entity, SurfaceReport& report);
   void find_faults(const SurfaceMesh& surface, SurfaceReport& report) const;
