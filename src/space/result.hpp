@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/patch.hpp"
 #include "space/corners.hpp"
 #include "space/element_sides.hpp"
@@ -13,7 +14,7 @@ namespace qmorph::space {
 
 /// What a surface was made into, and where on the surface its elements and nodes are. Both must outlive this. Cost:
 /// linear.
-class Result {
+class QMORPH_API Result {
  public:
   Result(const Patch& before, const QuadMesh& after);
 
