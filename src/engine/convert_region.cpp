@@ -228,8 +228,8 @@ class RegionConverter {
   const double allowed_;
   std::size_t cost_ = 0;
   std::map<std::uint64_t, std::size_t> finished_;  ///< fingerprints of what fronts made: what the rest has cost
-  kernel::Mesh start_;  ///< what the front begins with
-  kernel::Mesh input_;  ///< as it came, if stages are measured
+  kernel::Mesh start_;                             ///< what the front begins with
+  kernel::Mesh input_;                             ///< as it came, if stages are measured
 };
 
 /// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.
