@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "gmsh/session/compat.hpp"
-#include "gmsh/session/session.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -24,12 +24,6 @@ std::vector<Vector2d> pairs(const std::vector<double>& numbers) {
   std::vector<Vector2d> parameters;
   for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) parameters.emplace_back(numbers[i], numbers[i + 1]);
   return parameters;
-}
-
-const EntityMesh* find_entity(const ModelMesh& mesh, int dim, int tag) {
-  for (const EntityMesh& entity : mesh.entities)
-    if (entity.dim == dim && entity.tag == tag) return &entity;
-  return nullptr;
 }
 
 }  // namespace
@@ -89,10 +83,7 @@ NodeParameters::NodeParameters(const ModelMesh& mesh, std::uint32_t entity) : ta
     (dim == 1 ? curves : points).emplace_back(dim, tag);
     if (dim == 1) ::gmsh::model::getBoundary({{1, tag}}, points, false, false, true);
   }
-  for (::gmsh::vectorpair* list : {&curves, &points}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
+  for (::gmsh::vectorpair* list : {&curves, &points}) sort_unique(*list);
   for (const auto& [dim, tag] : curves) add_curve(mesh, tag);
   for (const auto& [dim, tag] : points)
     if (dim == 0) add_point(mesh, tag);

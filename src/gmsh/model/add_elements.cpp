@@ -58,8 +58,6 @@ void write_elements(std::ostream& out, const std::vector<const EntityMesh*>& ent
   out << "\n$EndElements\n";
 }
 
-bool has_elements(const EntityMesh* entity) { return entity->element_count() > 0; }
-
 }  // namespace
 
 void add_elements_by_calls(const std::vector<const EntityMesh*>& entities) {
@@ -68,7 +66,8 @@ void add_elements_by_calls(const std::vector<const EntityMesh*>& entities) {
 
 void add_elements_by_file(const std::vector<const EntityMesh*>& entities) {
   std::vector<const EntityMesh*> rest;
-  std::copy_if(entities.begin(), entities.end(), std::back_inserter(rest), has_elements);
+  std::copy_if(entities.begin(), entities.end(), std::back_inserter(rest),
+               [](const EntityMesh* entity) { return entity->element_count() > 0; });
   if (rest.empty()) return;
   // The last one by a call: after a file Gmsh finds elements by the file's numbers only, after a call by all.
   const EntityMesh* last = rest.back();

@@ -109,6 +109,13 @@ const ElementBlock* EntityMesh::polygons(std::size_t corners) const {
   return nullptr;
 }
 
+const EntityMesh* find_entity(const ModelMesh& mesh, int dim, int tag) {
+  const auto found = std::lower_bound(
+      mesh.entities.begin(), mesh.entities.end(), std::pair(dim, tag),
+      [](const EntityMesh& entity, const auto& wanted) { return std::pair(entity.dim, entity.tag) < wanted; });
+  return found != mesh.entities.end() && found->dim == dim && found->tag == tag ? &*found : nullptr;
+}
+
 NodeRows::NodeRows(const std::vector<std::size_t>& tags) {
   std::size_t max_tag = 0;
   for (std::size_t tag : tags) max_tag = std::max(max_tag, tag);

@@ -69,6 +69,9 @@ struct ModelMesh {
   std::size_t max_node_tag = 0, max_element_tag = 0;
 };
 
+/// Null if the model has no such entity. O(log n).
+const EntityMesh* find_entity(const ModelMesh& mesh, int dim, int tag);
+
 /// Copies the current model's mesh.
 /// \throws InputError if two nodes have one tag, or a line or point element uses a node that does not exist.
 ModelMesh read_model_mesh();

@@ -11,6 +11,7 @@
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/orientation.hpp"
 #include "gmsh/session/compat.hpp"
+#include "gmsh/session/element_types.hpp"
 #include "kernel/sort_unique.hpp"
 #include "qmorph/error.hpp"
 
@@ -84,11 +85,7 @@ Elements read_elements(const ModelMesh& mesh, const EntityMesh& entity) {
 std::string describe_volumes(const ModelMesh& mesh, const NodeUse& use, int surface, Index row) {
   std::vector<int> volumes, unused;
   ::gmsh::model::getAdjacencies(2, surface, volumes, unused);
-  std::erase_if(volumes, [](int volume) {
-    std::vector<int> types;
-    ::gmsh::model::mesh::getElementTypes(types, 3, volume);
-    return types.empty();
-  });
+  std::erase_if(volumes, [](int volume) { return !has_elements(3, volume); });
   if (volumes.empty()) volumes.push_back(mesh.entities[use.volume[row]].tag);
   std::sort(volumes.begin(), volumes.end());
   return fmt::format("volume{} {}", volumes.size() == 1 ? "" : "s", fmt::join(volumes, " and "));

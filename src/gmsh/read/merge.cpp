@@ -20,6 +20,7 @@
 #include "gmsh/read/msh/file.hpp"
 #include "gmsh/read/readable.hpp"
 #include "gmsh/session/compat.hpp"
+#include "gmsh/session/element_types.hpp"
 #include "gmsh/session/session.hpp"
 #include "qmorph/error.hpp"
 
@@ -231,12 +232,6 @@ bool has_nodes(const std::string& path) {
 constexpr const char* kMeshItFirst = "mesh the geometry to a .msh file first, and merge that";
 
 bool is_discrete(int dim, int tag) { return entity_type(dim, tag).find("Discrete") != std::string::npos; }
-
-bool has_elements(int dim, int tag) {
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, dim, tag);
-  return !types.empty();
-}
 
 /// An entity of a geometry, without nodes, and the box that it lies in.
 struct Place {

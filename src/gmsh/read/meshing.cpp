@@ -14,6 +14,7 @@
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/session/compat.hpp"
+#include "gmsh/session/element_types.hpp"
 #include "gmsh/session/scratch_file.hpp"
 #include "gmsh/session/session.hpp"
 #include "qmorph/error.hpp"
@@ -23,12 +24,6 @@ namespace {
 
 /// Gmsh's number of "simple": the only pairing that a script can switch off for each surface.
 constexpr double kSimplePairing = 0;
-
-bool has_elements(int dim, int tag) {
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, dim, tag);
-  return !types.empty();
-}
 
 bool is_discrete(int dim, int tag) { return entity_type(dim, tag).find("Discrete") != std::string::npos; }
 

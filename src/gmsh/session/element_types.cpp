@@ -27,4 +27,10 @@ int type_number(std::size_t corners, int order, bool incomplete) {
   return ::gmsh::model::mesh::getElementType(corners == 3 ? "Triangle" : "Quadrangle", order, incomplete);
 }
 
+bool has_elements(int dim, int tag) {
+  std::vector<int> types;
+  ::gmsh::model::mesh::getElementTypes(types, dim, tag);
+  return !types.empty();
+}
+
 }  // namespace qmorph::adapter

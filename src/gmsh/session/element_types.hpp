@@ -24,4 +24,7 @@ ElementType element_type(int type);
 /// Gmsh's number for a triangle (3 corners) or quad (4) of an order, or 0 if it has none.
 int type_number(std::size_t corners, int order, bool incomplete);
 
+/// Whether an entity of the current model has elements.
+bool has_elements(int dim, int tag);
+
 }  // namespace qmorph::adapter

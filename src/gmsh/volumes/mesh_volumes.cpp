@@ -3,11 +3,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "geometry/describe.hpp"
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/model/put_back.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/session/compat.hpp"
@@ -23,12 +26,6 @@ namespace {
 
 /// Gmsh's numbers for ways to mesh volumes. With one that stands for none, only what is structured is meshed.
 constexpr double kDelaunay = 1, kHxt = 10, kNone3D = 5;
-
-bool has_elements(int dim, int tag) {
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, dim, tag);
-  return !types.empty();
-}
 
 bool has_quads(int surface) {
   std::vector<int> types;
@@ -138,15 +135,8 @@ void generate_all(const std::vector<int>& volumes, std::vector<std::string>& war
     generate({}, warnings);
 }
 
-/// What is wrong with the elements of a volume, mended as far as that is possible.
-std::optional<std::string> mend(int volume) {
-  Solid solid = read_solid(volume);
-  std::vector<std::size_t> turned = find_turned(solid);
-  if (!turned.empty()) {
-    untangle(solid);
-    write_solid(solid);
-    turned = find_turned(solid);
-  }
+/// What is wrong with a volume, in words.
+std::optional<std::string> describe_faults(int volume, const Solid& solid, const std::vector<std::size_t>& turned) {
   std::vector<std::string> faults;
   if (!turned.empty())
     faults.push_back(fmt::format("{} of its {} elements {} turned over, as at {}", turned.size(), solid.cells.size(),
@@ -158,6 +148,27 @@ std::optional<std::string> mend(int volume) {
   if (faults.empty()) return std::nullopt;
   return fmt::format("volume {}: Gmsh has not meshed it well: {}; smaller elements there may help", volume,
                      fmt::join(faults, ", "));
+}
+
+/// Mends volumes as far as that is possible, and says what is left.
+std::vector<std::string> mend(const std::vector<int>& volumes) {
+  const ModelMesh mesh = read_model_mesh();
+  std::vector<std::string> faults;
+  std::deque<EntityMesh> mended;
+  std::vector<Replacement> replacements;
+  for (int tag : volumes) {
+    const EntityMesh& volume = *find_entity(mesh, 3, tag);
+    Solid solid = read_solid(mesh, volume);
+    std::vector<std::size_t> turned = find_turned(solid);
+    if (!turned.empty()) {
+      turned = untangle(solid, std::move(turned));
+      mended.push_back(with_solid(mesh, volume, solid));
+      replacements.push_back({std::uint32_t(&volume - mesh.entities.data()), &mended.back()});
+    }
+    if (std::optional<std::string> fault = describe_faults(tag, solid, turned)) faults.push_back(std::move(*fault));
+  }
+  if (!replacements.empty()) put_back(mesh, replacements);
+  return faults;
 }
 
 }  // namespace
@@ -180,11 +191,9 @@ MeshedVolumes mesh_volumes(bool keep_numbers) {
     meshed.told.push_back("Mesh.Algorithm3D 10 (HXT) makes no volume on quads; 1 (Delaunay) does it instead");
   }
   generate_all(volumes, meshed.warnings);
-  for (int volume : volumes) {
+  for (int volume : volumes)
     if (!has_elements(3, volume)) throw InputError(fmt::format("Gmsh made no element in volume {}", volume));
-    if (order_of_surfaces() > 1) continue;
-    if (std::optional<std::string> fault = mend(volume)) meshed.bad.push_back(std::move(*fault));
-  }
+  if (order_of_surfaces() <= 1) meshed.bad = mend(volumes);
   return meshed;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/volumes/solid.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -10,8 +8,6 @@
 #include <utility>
 
 #include "gmsh/session/compat.hpp"
-#include "gmsh/session/session.hpp"
-#include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -140,22 +136,24 @@ void orient(Solid& solid, const std::vector<FaceSide>& sides) {
 }
 
 /// Sorted corners of all elements of the volume's surfaces.
-std::vector<FaceNodes> skin_of(const Solid& solid, const std::unordered_map<std::size_t, Index>& row) {
+std::vector<FaceNodes> skin_of(const ModelMesh& mesh, int volume, const std::unordered_map<Index, Index>& local) {
   std::vector<FaceNodes> skin;
   ::gmsh::vectorpair surfaces;
-  ::gmsh::model::getBoundary({{3, solid.volume}}, surfaces, false, false);
-  for (const auto& [dim, surface] : surfaces)
+  ::gmsh::model::getBoundary({{3, volume}}, surfaces, false, false);
+  for (const auto& [dim, tag] : surfaces) {
+    const EntityMesh* surface = find_entity(mesh, dim, tag);
     for (const std::size_t corners : {3, 4}) {
-      std::vector<std::size_t> tags, nodes;
-      ::gmsh::model::mesh::getElementsByType(corners == 3 ? 2 : 3, tags, nodes, surface);
-      for (std::size_t i = 0; i < nodes.size(); i += corners) {
+      const ElementBlock* block = surface ? surface->polygons(corners) : nullptr;
+      for (std::size_t i = 0; block && i < block->nodes.size(); i += corners) {
         FaceNodes face{kNone, kNone, kNone, kNone};
         for (std::size_t k = 0; k < corners; ++k)
-          if (const auto found = row.find(nodes[i + k]); found != row.end()) face[k] = found->second;
+          if (const auto found = local.find(mesh.rows.find(block->nodes[i + k])); found != local.end())
+            face[k] = found->second;
         std::sort(face.begin(), face.end());
         skin.push_back(face);
       }
     }
+  }
   std::sort(skin.begin(), skin.end());
   return skin;
 }
@@ -188,40 +186,29 @@ std::size_t nodes_of(CellShape shape) {
   return shape == CellShape::tetrahedron ? 4 : shape == CellShape::pyramid ? 5 : shape == CellShape::prism ? 6 : 8;
 }
 
-Solid read_solid(int volume) {
+Solid read_solid(const ModelMesh& mesh, const EntityMesh& volume) {
   Solid solid;
-  solid.volume = volume;
-  std::unordered_map<std::size_t, Index> row;
+  std::unordered_map<Index, Index> local;  // by row of the mesh
   for (const CellShape shape : kCellShapes) {
-    std::vector<std::size_t> tags, nodes;
-    ::gmsh::model::mesh::getElementsByType(int(shape), tags, nodes, volume);
-    for (std::size_t e = 0; e < tags.size(); ++e) {
-      Cell cell{shape, {}, tags[e]};
+    const ElementBlock* block = volume.block(int(shape));
+    for (std::size_t e = 0; block && e < block->tags.size(); ++e) {
+      Cell cell{shape, {}};
       for (std::size_t k = 0; k < nodes_of(shape); ++k) {
-        const std::size_t tag = nodes[e * nodes_of(shape) + k];
-        const auto [found, is_new] = row.try_emplace(tag, Index(solid.node_tags.size()));
-        if (is_new) solid.node_tags.push_back(tag);
+        const Index row = mesh.rows.find(block->nodes[e * nodes_of(shape) + k]);
+        const auto [found, is_new] = local.try_emplace(row, Index(solid.rows.size()));
+        if (is_new) solid.rows.push_back(row);
         cell.nodes[k] = found->second;
       }
       solid.cells.push_back(cell);
     }
   }
-  solid.points.resize(solid.node_tags.size());
-  solid.may_move.assign(solid.node_tags.size(), false);
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, uv;
-  ::gmsh::model::mesh::getNodes(tags, xyz, uv, -1, -1, false, false);
-  for (std::size_t i = 0; i < tags.size(); ++i)
-    if (const auto found = row.find(tags[i]); found != row.end())
-      solid.points[found->second] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  std::vector<std::size_t> inside;
-  ::gmsh::model::mesh::getNodes(inside, xyz, uv, 3, volume, false, false);
-  for (std::size_t tag : inside)
-    if (const auto found = row.find(tag); found != row.end()) solid.may_move[found->second] = true;
-
+  for (const Index row : solid.rows) {
+    solid.points.push_back(mesh.points[row]);
+    solid.may_move.push_back(&mesh.entities[mesh.owner[row]] == &volume);
+  }
   const std::vector<FaceSide> sides = sides_of(solid);
   orient(solid, sides);
-  find_loose_faces(solid, sides, skin_of(solid, row));
+  find_loose_faces(solid, sides, skin_of(mesh, volume.tag, local));
   return solid;
 }
 
@@ -242,35 +229,20 @@ std::vector<std::size_t> find_turned(const Solid& solid) {
   return turned;
 }
 
-void write_solid(const Solid& solid) {
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz;
-  for (std::size_t i = 0; i < solid.node_tags.size(); ++i) {
-    if (!solid.may_move[i]) continue;
-    tags.push_back(solid.node_tags[i]);
-    xyz.insert(xyz.end(), {solid.points[i].x(), solid.points[i].y(), solid.points[i].z()});
-  }
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> cell_tags, cell_nodes;
-  for (const CellShape shape : kCellShapes) {
-    std::vector<std::size_t> these, nodes;
-    for (const Cell& cell : solid.cells) {
-      if (cell.shape != shape) continue;
-      these.push_back(cell.tag);
-      for (std::size_t k = 0; k < nodes_of(shape); ++k) nodes.push_back(solid.node_tags[cell.nodes[k]]);
+EntityMesh with_solid(const ModelMesh& mesh, EntityMesh volume, const Solid& solid) {
+  const Index first = volume.node_tags.empty() ? 0 : mesh.rows.find(volume.node_tags.front());
+  for (std::size_t i = 0; i < solid.rows.size(); ++i)
+    if (solid.may_move[i])
+      std::copy_n(solid.points[i].data(), 3, volume.xyz.begin() + 3 * std::ptrdiff_t(solid.rows[i] - first));
+  auto cell = solid.cells.begin();
+  for (const CellShape shape : kCellShapes)
+    for (ElementBlock& block : volume.blocks) {
+      if (block.type != int(shape)) continue;
+      for (std::size_t e = 0; e < block.tags.size(); ++e, ++cell)
+        for (std::size_t k = 0; k < nodes_of(shape); ++k)
+          block.nodes[e * nodes_of(shape) + k] = mesh.tags[solid.rows[cell->nodes[k]]];
     }
-    if (these.empty()) continue;
-    types.push_back(int(shape));
-    cell_tags.push_back(std::move(these));
-    cell_nodes.push_back(std::move(nodes));
-  }
-  const StageLog log = run_logged([&] {
-    ::gmsh::model::mesh::clear({{3, solid.volume}});
-    ::gmsh::model::mesh::addNodes(3, solid.volume, tags, xyz, {});
-    ::gmsh::model::mesh::addElements(3, solid.volume, types, cell_tags, cell_nodes);
-  });
-  if (!log.errors.empty())
-    throw InputError(fmt::format("Gmsh cannot take the elements of volume {}: {}", solid.volume, first_errors(log)));
+  return volume;
 }
 
 }  // namespace qmorph::adapter

@@ -6,10 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "qmorph/patch.hpp"
+#include "gmsh/model/model_mesh.hpp"
 
 namespace qmorph::adapter {
 
@@ -27,22 +26,20 @@ std::size_t nodes_of(CellShape shape);
 struct Cell {
   CellShape shape = CellShape::tetrahedron;
   std::array<Index, 8> nodes{};  ///< in Gmsh's order
-  std::size_t tag = 0;
 };
 
 struct Solid {
-  int volume = 0;
-  std::vector<std::size_t> node_tags;
+  std::vector<Index> rows;  ///< of the model's mesh, by node
   std::vector<Eigen::Vector3d> points;
-  std::vector<bool> may_move;  ///< a node inside
-  std::vector<Cell> cells;
+  std::vector<bool> may_move;   ///< a node inside
+  std::vector<Cell> cells;      ///< by shape, then as the model has them
   std::size_t loose_faces = 0;  ///< neither between two cells nor on the volume's surfaces
   Eigen::Vector3d loose_at = Eigen::Vector3d::Zero();
 };
 
 /// Reads a volume of order 1. Gmsh turns the numbering of an element that is turned over, so that its own volume is
 /// positive: cells are in the order that their neighbours ask for, and one that is turned over has a negative volume.
-Solid read_solid(int volume);
+Solid read_solid(const ModelMesh& mesh, const EntityMesh& volume);
 
 /// Six times the volume at a corner.
 double spanned_volume(const Solid& solid, const Cell& cell, const CellCorner& corner);
@@ -50,7 +47,7 @@ double spanned_volume(const Solid& solid, const Cell& cell, const CellCorner& co
 /// Numbers of cells that are turned over or flat at a corner.
 std::vector<std::size_t> find_turned(const Solid& solid);
 
-/// Gives Gmsh the places of nodes and the order of cells. \throws InputError
-void write_solid(const Solid& solid);
+/// The volume that a solid was read from, with the solid's places of nodes and order of the nodes in elements.
+EntityMesh with_solid(const ModelMesh& mesh, EntityMesh volume, const Solid& solid);
 
 }  // namespace qmorph::adapter

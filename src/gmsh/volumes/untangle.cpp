@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/sort_unique.hpp"
+
 namespace qmorph::adapter {
 namespace {
 
@@ -40,8 +42,7 @@ class Untangler {
       for (std::size_t k = 0; k < nodes_of(solid.cells[c].shape); ++k) cells_at_[solid.cells[c].nodes[k]].push_back(c);
   }
 
-  std::size_t run() {
-    std::vector<std::size_t> turned = find_turned(solid_);
+  std::vector<std::size_t> run(std::vector<std::size_t> turned) {
     for (int sweep = 0; sweep < kSweeps && !turned.empty(); ++sweep) {
       const std::vector<Eigen::Vector3d> before = solid_.points;
       for (Index v : nodes_near(turned)) move(v);
@@ -52,7 +53,7 @@ class Untangler {
       }
       turned = std::move(now);
     }
-    return turned.size();
+    return turned;
   }
 
  private:
@@ -64,19 +65,13 @@ class Untangler {
       for (std::size_t c : reached)
         nodes.insert(nodes.end(), solid_.cells[c].nodes.begin(),
                      solid_.cells[c].nodes.begin() + std::ptrdiff_t(nodes_of(solid_.cells[c].shape)));
-      make_unique(nodes);
+      sort_unique(nodes);
       reached.clear();
       for (Index v : nodes) reached.insert(reached.end(), cells_at_[v].begin(), cells_at_[v].end());
-      make_unique(reached);
+      sort_unique(reached);
     }
     std::erase_if(nodes, [&](Index v) { return !solid_.may_move[v]; });
     return nodes;
-  }
-
-  template <class T>
-  static void make_unique(std::vector<T>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
   }
 
   double mean_edge(Index v) const {
@@ -140,6 +135,8 @@ class Untangler {
 
 }  // namespace
 
-std::size_t untangle(Solid& solid) { return Untangler(solid).run(); }
+std::vector<std::size_t> untangle(Solid& solid, std::vector<std::size_t> turned) {
+  return Untangler(solid).run(std::move(turned));
+}
 
 }  // namespace qmorph::adapter
