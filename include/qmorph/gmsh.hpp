@@ -36,8 +36,11 @@ enum class SurfaceOutcome {
 /// surfaces have none: the triangles are all there is.
 struct OnGeometry {
   std::size_t nodes = 0;  ///< that are new or have moved, on it
-  std::size_t left =
-      0;  ///< that stay on the triangles: an element would be spoiled, or there is no way to the geometry
+  /// That stay on the triangles: an element would be spoiled, or there is no way to the geometry.
+  std::size_t left = 0;
+
+  std::size_t all() const { return nodes + left; }
+  void add(const OnGeometry& other) { nodes += other.nodes, left += other.left; }
 };
 
 /// One surface, before and after.

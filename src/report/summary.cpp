@@ -50,9 +50,9 @@ std::string distance(const Fidelity& fidelity) {
 
 /// "; nodes on the geometry", and how many are not.
 std::string on_geometry(const OnGeometry& nodes) {
-  if (nodes.nodes + nodes.left == 0) return "";
+  if (nodes.all() == 0) return "";
   if (nodes.left == 0) return "; nodes on the geometry";
-  return fmt::format("; nodes on the geometry but {} of {}", nodes.left, nodes.nodes + nodes.left);
+  return fmt::format("; nodes on the geometry but {} of {}", nodes.left, nodes.all());
 }
 
 std::string sizes(const std::vector<DirectedSize>& all) {

@@ -42,8 +42,7 @@ void Figures::add_result(const ConvertedSurface& converted, SurfaceReport& repor
   report.quality = quality.result();
   report.conversion = converted.report;
   report.on_geometry = converted.on_geometry;
-  on_geometry_.nodes += converted.on_geometry.nodes;
-  on_geometry_.left += converted.on_geometry.left;
+  on_geometry_.add(converted.on_geometry);
   report.warnings = converted.surface.warnings;
   if (std::string lost = describe_lost_size(report.conversion.sizes); !lost.empty())
     report.warnings.push_back(std::move(lost));

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "gmsh/geometry/cad_surface.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/put_back.hpp"
 #include "gmsh/session/compat.hpp"
@@ -82,7 +83,7 @@ std::vector<std::size_t> tags_of_removed(const ModelMesh& mesh, const std::vecto
 
 /// Parameters of a node of the result, or NaN.
 Eigen::Vector2d parameters_of(const ModelMesh& mesh, const ConvertedSurface& converted, std::size_t part, Index node) {
-  if (converted.parameters.empty()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (converted.parameters.empty()) return kNoParameters;
   const Eigen::Vector2d& found = converted.parameters[part][node];
   const EntityMesh& before = mesh.entities[converted.surface.entity];
   const Index source = converted.results[part].source[node];

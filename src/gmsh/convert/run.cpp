@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "gmsh/convert/complaints.hpp"
+#include "gmsh/convert/onto_geometry.hpp"
 #include "gmsh/convert/stop_watch.hpp"
-#include "gmsh/geometry/cad_surface.hpp"
 #include "gmsh/model/extrusions.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/overlap.hpp"
@@ -30,11 +29,6 @@ constexpr double kOnTriangles = 1e-6, kOnGeometry = 1;
 void free_quads(SurfaceMesh& surface) {
   surface.quads_may_go = true;
   for (SurfacePart& part : surface.parts) part.quad_tags.clear();
-}
-
-/// What the surface's triangles stand for, if that is anything but themselves.
-std::unique_ptr<Shape> find_shape(const ModelMesh& mesh, std::uint32_t entity) {
-  return CadSurface::find(mesh, entity);
 }
 
 }  // namespace
@@ -132,7 +126,7 @@ Job Run::begin_family(const PeriodicFamily& family, const std::vector<std::uint3
 void Run::finish_alone(Job& job) {
   StopWatch watch;
   try {
-    settle(job.converted[0], Onto::shape);
+    settle(job.converted[0]);
     accept(std::move(job.converted[0]), job.reports[0]);
   } catch (const SurfaceError& error) {
     leave(job.reports[0], error);
@@ -152,7 +146,7 @@ void Run::finish_family(Job& job) {
         job.converted[at].report = master.report;
         job.reports[at].image_of = family.members[0];
       }
-      settle(job.converted[at], at == 0 ? Onto::shape : Onto::nothing);
+      at == 0 ? settle(job.converted[at]) : settle_image(job.converted[at]);
     }
     for (at = 0; at < job.converted.size(); ++at) accept(std::move(job.converted[at]), job.reports[at]);
     job.reports[0].seconds += watch.lap();
@@ -196,24 +190,31 @@ void Run::check(const ConvertedSurface& converted, double beside) const {
   }
 }
 
-/// The last word on where nodes are. An image has the places of its master's nodes, but parameters of its own.
+/// The last word on where nodes are.
 /// \throws SurfaceError
-void Run::settle(ConvertedSurface& converted, Onto onto) {
+void Run::settle(ConvertedSurface& converted) {
   StopWatch watch;
-  if (onto == Onto::shape) check(converted, kOnTriangles);
-  if (const std::unique_ptr<Shape> shape = find_shape(model_.mesh, converted.surface.entity)) {
+  check(converted, kOnTriangles);
+  if (const auto geometry = CadSurface::find(model_.mesh, converted.surface.entity)) {
     const std::vector<QuadMesh> on_triangles = converted.results;
-    put_onto(*shape, onto, converted);
+    put_onto(*geometry, converted);
     try {
       check(converted, kOnGeometry);
     } catch (const SurfaceError&) {
-      if (onto == Onto::nothing) throw;
       converted.results = on_triangles;
-      converted.on_geometry = {0, converted.on_geometry.nodes + converted.on_geometry.left};
+      converted.on_geometry = {0, converted.on_geometry.all()};
     }
-  } else if (onto == Onto::nothing) {
-    check(converted, kOnTriangles);
   }
+  report_.check_seconds += watch.lap();
+}
+
+/// An image has the places of its master's nodes, but parameters of its own.
+/// \throws SurfaceError
+void Run::settle_image(ConvertedSurface& converted) {
+  StopWatch watch;
+  const auto geometry = CadSurface::find(model_.mesh, converted.surface.entity);
+  check(converted, geometry ? kOnGeometry : kOnTriangles);
+  if (geometry) find_parameters(*geometry, converted);
   report_.check_seconds += watch.lap();
 }
 

@@ -11,7 +11,6 @@
 #include "gmsh/convert/jobs.hpp"
 #include "gmsh/convert/periodic.hpp"
 #include "gmsh/convert/replace.hpp"
-#include "gmsh/geometry/onto_geometry.hpp"
 #include "gmsh/model/patches.hpp"
 #include "qmorph/gmsh.hpp"
 
@@ -36,7 +35,8 @@ class Run {
   void finish_alone(Job& job);
   void finish_family(Job& job);
   ConvertedSurface read(std::uint32_t entity);
-  void settle(ConvertedSurface& converted, Onto onto);
+  void settle(ConvertedSurface& converted);
+  void settle_image(ConvertedSurface& converted);
   void check(const ConvertedSurface& converted, double beside) const;
   void accept(ConvertedSurface converted, SurfaceReport& report);
   void look_at(std::uint32_t entity, SurfaceReport& report);

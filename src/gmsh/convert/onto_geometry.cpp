@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gmsh/geometry/onto_geometry.hpp"
-
-#include <limits>
+#include "gmsh/convert/onto_geometry.hpp"
 
 #include "qmorph/check.hpp"
 #include "space/move_nodes.hpp"
 
 namespace qmorph::adapter {
 namespace {
-
-using Eigen::Vector2d, Eigen::Vector3d;
 
 std::vector<OnInput> places_of(const std::vector<Index>& nodes, const space::Result& result, const SurfacePart& part) {
   std::vector<OnInput> places;
@@ -33,9 +29,7 @@ OnGeometry move(const std::vector<Index>& nodes, const std::vector<Landing>& lan
   return {moves.size() - stayed, nodes.size() - moves.size() + stayed};
 }
 
-}  // namespace
-
-void put_onto(const Shape& shape, Onto onto, ConvertedSurface& surface) {
+void settle(const CadSurface& geometry, ConvertedSurface& surface, bool may_move) {
   surface.parameters.clear();
   surface.on_geometry = {};
   for (std::size_t p = 0; p < surface.results.size(); ++p) {
@@ -43,17 +37,17 @@ void put_onto(const Shape& shape, Onto onto, ConvertedSurface& surface) {
     QuadMesh& mesh = surface.results[p];
     const space::Result result(part.patch, mesh);
     const std::vector<Index> nodes = space::movable_nodes(result, part.patch);
-    const std::vector<Landing> landings = shape.land(places_of(nodes, result, part));
-    if (shape.has_parameters()) {
-      auto& parameters = surface.parameters.emplace_back(mesh.points.size(),
-                                                         Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
-      for (std::size_t i = 0; i < nodes.size(); ++i) parameters[nodes[i]] = landings[i].parameters;
-    }
-    if (onto == Onto::nothing || is_planar(part.patch)) continue;
-    const OnGeometry moved = move(nodes, landings, result, mesh);
-    surface.on_geometry.nodes += moved.nodes;
-    surface.on_geometry.left += moved.left;
+    const std::vector<Landing> landings = geometry.land(places_of(nodes, result, part));
+    auto& parameters = surface.parameters.emplace_back(mesh.points.size(), kNoParameters);
+    for (std::size_t i = 0; i < nodes.size(); ++i) parameters[nodes[i]] = landings[i].parameters;
+    if (may_move && !is_planar(part.patch)) surface.on_geometry.add(move(nodes, landings, result, mesh));
   }
 }
+
+}  // namespace
+
+void find_parameters(const CadSurface& geometry, ConvertedSurface& surface) { settle(geometry, surface, false); }
+
+void put_onto(const CadSurface& geometry, ConvertedSurface& surface) { settle(geometry, surface, true); }
 
 }  // namespace qmorph::adapter
