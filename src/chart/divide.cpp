@@ -77,8 +77,9 @@ class Dividing {
   /// one to the left, the others to the right; those of a tube do not turn.
   static bool has_to_be_opened(const Piece& piece) {
     constexpr double kMostAmiss = 4;
+    if (piece.faces.size() < kLarge) return false;
     const std::vector<std::vector<Index>> loops = loops_of(piece);
-    if (piece.faces.size() < kLarge || loops.size() < 2) return false;
+    if (loops.size() < 2) return false;
     const std::vector<double> turns = angle_defects(piece);
     std::vector<double> sums;
     for (const std::vector<Index>& loop : loops) {
@@ -103,13 +104,9 @@ class Dividing {
   /// Accepts a part, or cuts it and returns what it falls into.
   std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
     Piece piece(mesh_, opposite_, division_.is_cut, faces);
-    if (double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece)) {
-      auto smaller = cut(faces, piece);
-      if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
-      return smaller;
-    }
-    if (has_to_be_opened(piece)) {
-      if (auto opened = open(faces, piece)) return finish(faces, std::move(opened));
+    const bool is_to_be_cut = double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece);
+    if (is_to_be_cut || has_to_be_opened(piece)) {
+      if (auto opened = is_to_be_cut ? nullptr : open(faces, piece)) return finish(faces, std::move(opened));
       auto smaller = cut(faces, piece);
       if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
       return smaller;

@@ -89,6 +89,9 @@ bool is_small(const Region& region, const Options& options) {
   return 2 * region.triangles.size() <= options.retry_triangles;
 }
 
+/// Whether so many triangles are few enough for other constants of the front.
+bool may_try_again(std::size_t triangles, const Options& options) { return triangles <= 2 * options.retry_triangles; }
+
 /// What an attempt costs in a region of no size.
 constexpr std::size_t kWorkPerAttempt = 200;
 
@@ -106,11 +109,11 @@ class RegionConverter {
       if (auto parts = attempt_in_parts()) return std::move(*parts);
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
       constexpr std::size_t kFewest = 3;                // with fewer a front has no choice
-      const bool may_try_again = size >= kFewest && size <= 2 * options_.retry_triangles;
-      Attempt first = attempt(may_try_again ? start_ : std::move(start_), options_, allowed_, true);
-      if (!first.fault) return may_try_again ? best_of_variants(std::move(first), size) : std::move(first);
+      const bool has_tries = size >= kFewest && may_try_again(size, options_);
+      Attempt first = attempt(has_tries ? start_ : std::move(start_), options_, allowed_, true);
+      if (!first.fault) return has_tries ? best_of_variants(std::move(first), size) : std::move(first);
       fault = first.fault;
-      if (!may_try_again) start();
+      if (!has_tries) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
     Attempt paired = attempt(std::move(start_), options_, allowed_ - double(cost_), false);
@@ -179,15 +182,17 @@ class RegionConverter {
       result.fault = SurfaceError("too many elements");
       return result;
     }
-    const auto [known, is_new] = finished_.try_emplace(result.mesh.fingerprint(), 0);
-    if (!is_new) {
+    // Without a second try there is nothing to compare with.
+    const std::uint64_t made = may_try_again(region_.triangles.size(), options_) ? result.mesh.fingerprint() : 0;
+    if (const auto known = finished_.find(made); known != finished_.end()) {
       result.fault = SurfaceError("the front has made this before");
       cost_ += known->second;
       return result;
     }
     pipeline.finish(result.mesh);
-    known->second = result.mesh.work() - front_work;
-    cost_ += known->second;
+    const std::size_t finish_work = result.mesh.work() - front_work;
+    if (made) finished_.emplace(made, finish_work);
+    cost_ += finish_work;
     if (is_small_) raise_corners(result.mesh, options.smoothing);
     if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
