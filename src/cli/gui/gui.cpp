@@ -167,7 +167,7 @@ void Gui::tell(const Converted& converted) {
       say(fmt::format("surface {}: {}", surface.tag, warning), Severity::warning);
   }
   if (converted.even) say(report::even_line(*converted.even));
-  say(report::total_line(converted.model, "the window", converted.seconds));
+  say(report::total_line(converted.model, "in the window", converted.seconds));
 }
 
 /// The views that belong to what is there: a front, or a result.
