@@ -89,6 +89,7 @@ const Converted& Document::convert(const Request& request, double size_factor, O
   const auto start = std::chrono::steady_clock::now();
   Converted result;
   try {
+    const adapter::ScopedOption quiet("General.Verbosity", 2);  // what there is to say, we say
     if (request.all_quad) result.even = session::make_even(request.surfaces, request.keep_curves);
     when_meshed(options);
     result.model = request.cleanup_only ? session::improve_quads(options, request.surfaces)

@@ -9,7 +9,7 @@ namespace {
 constexpr adapter::Rgb kAhead{235, 238, 242}, kBehind{158, 202, 225}, kMade{253, 174, 97}, kBase{215, 25, 28};
 /// Rows of quads come in these, over and over; states of an edge have the first three.
 const std::vector<adapter::Rgb> kFront = {{27, 120, 55}, {118, 42, 131}, {8, 64, 129}, {166, 86, 40}, {60, 60, 60}};
-constexpr double kFrontWidth = 4, kBaseWidth = 7;
+constexpr double kFrontWidth = 3, kBaseWidth = 4;
 
 double value_of(const FrontEdge& edge, FrontColour colour) {
   if (colour == FrontColour::state) return double(edge.origin_corner) + double(edge.target_corner);

@@ -17,7 +17,7 @@ using report::SceneFigures;
 
 /// As many as a scale has steps that an eye can tell.
 constexpr int kScaleColours = 64;
-constexpr double kMarkSize = 8;
+constexpr double kMarkSize = 5;
 
 constexpr adapter::Rgb kThree{230, 97, 1}, kFive{31, 90, 200}, kOther{0, 0, 0}, kLeft{214, 39, 40};
 

@@ -54,8 +54,9 @@ void ShownViews::begin(const ViewStyle& style, int view) {
   set("ShowScale", style.scale);
   set("ShowElement", style.outlines);
   set("LineWidth", style.width);
+  set("LineType", style.outlines ? 0 : 1);  // and so do cylinders
   set("PointSize", style.points);
-  set("PointType", 1);  // spheres stick out of what lies in the same plane
+  set("PointType", 1);
   set("Light", 0);
   const auto out = std::back_inserter(script_);
   fmt::format_to(out, "{}ColorTable = {{", prefix);
