@@ -386,6 +386,23 @@ TEST_CASE("window: another file opened in Gmsh's menu is the model from then on,
   CHECK(panel_is_there());
 }
 
+TEST_CASE("window: a parameter of the script changes the geometry") {
+  const TemporaryDirectory directory;
+  const std::string path = directory / "plate.geo";
+  write_file(path,
+             "SetFactory(\"OpenCASCADE\");\nDefineConstant[ w = {1, Name \"Width\"} ];\n"
+             "Rectangle(1) = {0, 0, 0, w, 1};\nMesh.MeshSizeMax = 0.1;\n");
+  Window window({path});
+  window.press(action::kConvert);
+  const std::size_t quads = counts().second;
+  adapter::set_parameter("Width", 3);
+  window.press("check");
+  CHECK(counts().second == 0);
+  window.press(action::kConvert);
+  CHECK(counts().second > 2 * quads);
+  CHECK(window.saved() == written(path + " -setnumber w 3"));
+}
+
 TEST_CASE("window: what the user changes in a mesh is not undone") {
   const Plate plate;
   Window window({plate.path});

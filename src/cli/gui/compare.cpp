@@ -12,8 +12,7 @@ namespace qmorph::cli {
 std::string compare_with_gmsh(const adapter::Snapshot& triangles, report::PictureColour colour, bool irregular,
                               adapter::ShownViews& views) {
   const adapter::SecondModel second(triangles);
-  add_result(read_scene(), colour, irregular, {}, views);
-  views.style();
+  show_second(read_scene(), colour, irregular, views);
   return "Gmsh's recombine: " + report::check_line(session::measure_surfaces());
 }
 

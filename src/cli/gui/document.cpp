@@ -47,6 +47,16 @@ void Document::open() {
   model_ = state_.model, file_ = state_.file;
 }
 
+bool Document::reopen() {
+  if (!file_.ends_with(".geo")) return false;
+  forget();
+  meshed_with_.reset();
+  opened_ = adapter::open_model(file_, {.no_meshing = true});
+  note_state();
+  model_ = state_.model, file_ = state_.file;
+  return true;
+}
+
 bool Document::has_changed_hands() {
   const adapter::LoadedState now = adapter::loaded_state();
   if (now.model == model_ && now.file == file_) return false;

@@ -31,6 +31,8 @@ class Document {
 
   /// The file of the command line, as the command opens it but for the mesh, or an empty model. \throws Error
   void open();
+  /// Reads the script that is opened anew, as it depends on parameters. \return false if it is none. \throws Error
+  bool reopen();
   /// Whether Gmsh has loaded something else since. It is taken as it is then.
   bool has_changed_hands();
 

@@ -64,6 +64,7 @@ Gui::Gui(const Call& call, adapter::Session& session)
   document_.open();
   define_panel(call_.request);
   choices_ = read_choices();
+  parameters_ = adapter::other_parameters(parameter::kGroup);
   adapter::set_mesh_look();
   window_.refresh();
 }
@@ -75,6 +76,7 @@ void Gui::turn(double seconds) {
   if (document_.has_changed_hands()) {
     views_.forget();
     player_.reset();
+    parameters_ = adapter::other_parameters(parameter::kGroup);
     show_figures(nullptr, 0);
   }
   if (!panel_is_there()) {  // the gear can reset all parameters
@@ -123,6 +125,12 @@ void Gui::do_action(const std::string& name) {
 }
 
 void Gui::choices_changed() {
+  const std::string parameters = std::exchange(parameters_, adapter::other_parameters(parameter::kGroup));
+  if (parameters != parameters_) {
+    leave_front();
+    views_.clear();
+    if (document_.reopen()) show_figures(nullptr, 0);
+  }
   const Choices before = std::exchange(choices_, read_choices());
   const bool result = before.colour != choices_.colour || before.irregular != choices_.irregular;
   if (watches_front() ? before.front != choices_.front : result) show();
@@ -317,6 +325,7 @@ int show_gui(const Call& call) {
   adapter::Session session(call.request.gmsh_arguments);
   begin_session(call, session);
   if (const std::string reason = adapter::find_no_window(); !reason.empty()) throw UsageError("--gui: " + reason);
+  call.begin(bad_usage, "--gui: the window cannot be opened");
   Gui gui(call, session);
   while (gui.is_open()) gui.turn(-1);
   return all_converted;

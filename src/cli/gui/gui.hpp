@@ -64,6 +64,7 @@ class Gui {
   adapter::LiveWindow window_;
   adapter::ShownViews views_;
   Choices choices_;
+  std::string parameters_;  ///< of the script
   std::optional<FrontPlayer> player_;
   std::vector<std::string> said_;
 };

@@ -28,6 +28,7 @@ inline constexpr const char* kCompare = "qmorph compare";
 
 /// Names of parameters.
 namespace parameter {
+inline constexpr const char* kGroup = "00qmorph/";
 inline constexpr const char* kSizeFactor = "00qmorph/01Size factor";
 inline constexpr const char* kAllQuad = "00qmorph/02No triangle at all";
 inline constexpr const char* kCleanupOnly = "00qmorph/03Clean up only";

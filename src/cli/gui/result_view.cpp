@@ -42,7 +42,9 @@ Column column_of(PictureColour colour, const SceneFigures& figures) {
   return {"", nullptr};
 }
 
-void show_colours(const Scene& scene, const Column& column, bool whole_range, adapter::ShownViews& views) {
+void show_colours(const Scene& scene, const SceneFigures& figures, PictureColour colour, adapter::ViewStyle style,
+                  adapter::ShownViews& views) {
+  const Column column = column_of(colour, figures);
   std::vector<std::size_t> tags;
   std::vector<double> values;
   for (std::size_t f = 0; f < scene.faces.size(); ++f) {
@@ -52,8 +54,9 @@ void show_colours(const Scene& scene, const Column& column, bool whole_range, ad
     values.push_back(value);
   }
   if (values.empty()) return;
-  adapter::ViewStyle style{.name = column.name, .colours = colours_on_scale(kScaleColours), .scale = true};
-  if (whole_range) {
+  style.name = column.name;
+  style.colours = colours_on_scale(kScaleColours);
+  if (colour == PictureColour::size) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     style.least = *least, style.most = *most;
   }
@@ -99,19 +102,21 @@ std::vector<adapter::Rgb> colours_on_scale(int count) {
   return colours;
 }
 
-void add_result(const Scene& scene, PictureColour colour, bool irregular, const std::vector<int>& left,
-                adapter::ShownViews& views) {
-  const SceneFigures figures = measure(scene);
-  if (colour != PictureColour::none)
-    show_colours(scene, column_of(colour, figures), colour == PictureColour::size, views);
-  if (irregular) show_marks(scene, figures, views);
-  show_left(scene, left, views);
-}
-
 void show_result(const Scene& scene, PictureColour colour, bool irregular, const std::vector<int>& left,
                  adapter::ShownViews& views) {
   views.clear();
-  add_result(scene, colour, irregular, left, views);
+  const SceneFigures figures = measure(scene);
+  if (colour != PictureColour::none) show_colours(scene, figures, colour, {.scale = true}, views);
+  if (irregular) show_marks(scene, figures, views);
+  show_left(scene, left, views);
+  views.style();
+}
+
+void show_second(const Scene& scene, PictureColour colour, bool irregular, adapter::ShownViews& views) {
+  const SceneFigures figures = measure(scene);
+  const bool any = colour != PictureColour::none;
+  show_colours(scene, figures, any ? colour : PictureColour::scaled_jacobian, {.outlines = true}, views);
+  if (irregular) show_marks(scene, figures, views);
   views.style();
 }
 

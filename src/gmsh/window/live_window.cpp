@@ -56,6 +56,22 @@ std::string text_parameter(const std::string& name) {
 void set_parameter(const std::string& name, double value) { ::gmsh::onelab::setNumber(name, {value}); }
 void set_parameter(const std::string& name, const std::string& value) { ::gmsh::onelab::setString(name, {value}); }
 
+std::string other_parameters(const std::string& ours) {
+  std::vector<std::string> names;
+  ::gmsh::onelab::getNames(names);
+  std::string text;
+  for (const std::string& name : names) {
+    const auto in = [&](const std::string& group) { return name.rfind(group, 0) == 0; };
+    if (in(ours) || in("ONELAB") || in("0Modules") || in("Gmsh/")) continue;
+    std::vector<double> numbers;
+    ::gmsh::onelab::getNumber(name, numbers);
+    text += name + '=' + text_parameter(name);
+    for (double number : numbers) text += ' ' + std::to_string(number);
+    text += '\n';
+  }
+  return text;
+}
+
 void set_button(const std::string& label, const std::string& action) {
   ::gmsh::onelab::setString(kButton, {label, action});
 }

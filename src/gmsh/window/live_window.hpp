@@ -26,6 +26,9 @@ std::string text_parameter(const std::string& name);
 void set_parameter(const std::string& name, double value);
 void set_parameter(const std::string& name, const std::string& value);
 
+/// Names and values of all others: those that a script has defined.
+std::string other_parameters(const std::string& ours);
+
 /// What the button beside the gear says, and the action that a press is.
 void set_button(const std::string& label, const std::string& action);
 

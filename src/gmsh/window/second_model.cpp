@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/window/second_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <limits>
+#include <fstream>
 #include <vector>
 
 #include "gmsh/model/add_elements.hpp"
 #include "gmsh/session/compat.hpp"
+#include "gmsh/session/scratch_file.hpp"
 #include "gmsh/session/session.hpp"
 
 namespace qmorph::adapter {
@@ -15,15 +18,18 @@ namespace {
 constexpr const char* kName = "Gmsh's recombine";
 constexpr double kGap = 0.1;  ///< between the two, in widths
 
-/// How far to the right a copy has to be.
-double offset_of(const ModelMesh& mesh) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Eigen::Vector3d& p : mesh.points) low = std::min(low, p.x()), high = std::max(high, p.x());
-  return mesh.points.empty() ? 0 : (1 + kGap) * (high - low);
+/// What the window shows at least; the current model without a box.
+void show_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  const bool any = (low.array() <= high.array()).all();
+  const ScratchFile script(".geo");
+  std::ofstream(script.path()) << (any ? fmt::format("BoundingBox {{{}, {}, {}, {}, {}, {}}};\n", low.x(), high.x(),
+                                                     low.y(), high.y(), low.z(), high.z())
+                                       : "BoundingBox;\n");
+  const ScopedOption quiet("General.Verbosity", 1);
+  ::gmsh::merge(script.path());
 }
 
-void fill(const ModelMesh& mesh) {
-  const double offset = offset_of(mesh);
+void fill(const ModelMesh& mesh, double offset) {
   std::vector<const EntityMesh*> filled;
   for (const EntityMesh& entity : mesh.entities) {
     if (entity.dim > 2) continue;
@@ -41,9 +47,12 @@ void fill(const ModelMesh& mesh) {
 SecondModel::SecondModel(const Snapshot& triangles) {
   remove_second_model();
   ::gmsh::model::getCurrent(first_);
+  for (const Eigen::Vector3d& p : triangles.mesh.points) low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
+  const double offset = (1 + kGap) * (high_ - low_).x();
+  high_.x() += offset;
   const StageLog log = run_logged([&] {
     ::gmsh::model::add(kName);
-    fill(triangles.mesh);
+    fill(triangles.mesh, offset);
     ::gmsh::model::mesh::recombine();
   });
   if (log.errors.empty()) return;
@@ -54,6 +63,7 @@ SecondModel::SecondModel(const Snapshot& triangles) {
 SecondModel::~SecondModel() {
   try {
     ::gmsh::model::setCurrent(first_);
+    show_box(low_, high_);
   } catch (...) {  // a destructor has nobody to tell
   }
 }
@@ -67,6 +77,7 @@ void remove_second_model() {
   ::gmsh::model::setCurrent(kName);
   ::gmsh::model::remove();
   ::gmsh::model::setCurrent(now);
+  show_box(Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
 }
 
 }  // namespace qmorph::adapter

@@ -2,6 +2,8 @@
 #pragma once
 /// Another model beside the one that is shown.
 
+#include <Eigen/Core>
+#include <limits>
 #include <string>
 
 #include "gmsh/window/snapshot.hpp"
@@ -20,6 +22,8 @@ class SecondModel {
 
  private:
   std::string first_;
+  /// Around both.
+  Eigen::Vector3d low_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
 };
 
 /// Takes it away, if it is there.

@@ -14,8 +14,8 @@ using Rgb = std::array<int, 3>;
 
 /// How a view looks.
 struct ViewStyle {
-  std::string name;
-  std::vector<Rgb> colours;      ///< from `least` to `most`
+  std::string name{};
+  std::vector<Rgb> colours{};    ///< from `least` to `most`
   double least = 0, most = 1;    ///< values outside get the colours at the ends
   bool scale = false;            ///< the colours are explained at the side
   bool outlines = false;         ///< elements have their sides drawn
