@@ -47,6 +47,7 @@ constexpr std::array kRows = {
     Row{"colour", "--colour NAME", 1, "for pictures: sj (scaled Jacobian, default), eta, thesis, size or none"},
     Row{"views", "--views", 0, "write the figures into OUT as data that Gmsh shows, or beside it (.pos)"},
     Row{"view", "--view", 0, "show OUT in Gmsh's window"},
+    Row{"gui", "--gui", 0, "Gmsh's window on IN, or on nothing, with a panel: convert, back, step by step, save"},
     Row{"smoothing", "--smoothing NAME", 1, "shape_energy (default), or thesis: constrained Laplacian"},
     Row{"set", "--set NAME=VALUE", 1, "set a constant of the algorithm (README: \"Constants\")"},
     Row{"check", "--check", 0, "judge the mesh IN and write nothing: status 6 if it is not good enough"},
