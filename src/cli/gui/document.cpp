@@ -160,7 +160,8 @@ std::vector<std::string> Document::save(const Request& of_panel) {
   const Call call{request, call_.arguments, call_.out, call_.err, call_.process};
   adapter::OpenedModel opened = opened_;
   opened.had_mesh = opened.had_mesh || !meshed_with_ || !converted_;
-  for (std::string& fault : finish_model(call, opened, session_)) said.push_back(std::move(fault));
+  ModelReport report;
+  for (std::string& fault : finish_model(call, opened, session_, report)) said.push_back(std::move(fault));
   prepare_for_readers(call, plan);
   adapter::StagedFile file = adapter::stage(plan, call.names());
   write_mesh(request, plan, opened, /*as_it_was*/ false, file);

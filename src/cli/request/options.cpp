@@ -35,7 +35,7 @@ constexpr std::array kRows = {
     Row{"crease", "--crease X", 1, "on curved surfaces edges sharper than X degrees stay (default 40; 180: none)"},
     Row{"for", "--for READER", 1,
         "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d"},
-    Row{"elements", "--elements NAME", 1, "for decks: CPS (default), CPE, CAX, S or M3D, with an R behind for reduced"},
+    Row{"elements", "--elements NAME", 1, "for decks: CPS (default in the plane z = 0), CPE, CAX, S (elsewhere), M3D, or CPSR, ..."},
     Row{"stats", "--stats FILE", 1, "write the figures of the result to FILE (JSON)"},
     Row{"report", "--report FILE", 1, "write a page that shows the mesh before and after, and all figures (HTML)"},
     Row{"film", "--film FILE", 1, "write a page that plays how the front advanced, step by step (HTML)"},

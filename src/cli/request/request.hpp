@@ -26,7 +26,7 @@ struct Request {
   std::string stage = "final", colour = "sj";  ///< of the pictures
   std::vector<std::string> merged;             ///< further files, merged with the input
   std::string consumer;                        ///< of --for
-  std::string elements = "CPS";                ///< family of a deck's surface elements
+  std::string elements;                        ///< family of a deck's surface elements; empty: the mesh decides
   Thresholds thresholds;
   std::string against;  ///< file with the mesh that --check measures distances to, or empty
   std::vector<int> surfaces;
