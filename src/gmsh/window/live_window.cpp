@@ -119,16 +119,21 @@ LiveWindow::LiveWindow() {
 
 bool LiveWindow::is_open() const { return ::gmsh::fltk::isAvailable() > 0; }
 
-void LiveWindow::turn(double seconds) { ::gmsh::fltk::wait(seconds); }
+// Gmsh's calls would open a window that the user has closed.
+
+void LiveWindow::turn(double seconds) {
+  if (is_open()) ::gmsh::fltk::wait(seconds);
+}
 
 void LiveWindow::refresh() {
+  if (!is_open()) return;
   ::gmsh::fltk::update();
   ::gmsh::graphics::draw();
 }
 
-void LiveWindow::draw() { ::gmsh::graphics::draw(); }
-
-void LiveWindow::status(const std::string& text) { ::gmsh::fltk::setStatusMessage(text); }
+void LiveWindow::status(const std::string& text) {
+  if (is_open()) ::gmsh::fltk::setStatusMessage(text);
+}
 
 std::vector<int> LiveWindow::pick_surfaces() {
   ::gmsh::vectorpair picked;
