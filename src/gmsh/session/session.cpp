@@ -58,15 +58,13 @@ class HomeOfGmsh {
 
 }  // namespace
 
-Session::Session(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"qmorph"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+Session::Session(const std::vector<std::string>& arguments) : words_{"qmorph"} {
+  words_.insert(words_.end(), arguments.begin(), arguments.end());
+  for (std::string& word : words_) argv_.push_back(word.data());
+  argv_.push_back(nullptr);
   const HomeOfGmsh home;
   // No configuration files: the same input and options give the same mesh for every user.
-  ::gmsh::initialize(static_cast<int>(words.size()), argv.data(), false);
+  ::gmsh::initialize(static_cast<int>(words_.size()), argv_.data(), false);
   complaint_ = get_last_error();
   take_control();
 }

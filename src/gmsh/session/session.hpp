@@ -27,6 +27,8 @@ class Session {
   const std::string& complaint() const { return complaint_; }
 
  private:
+  std::vector<std::string> words_;  ///< the arguments: Gmsh's window reads them when it opens
+  std::vector<char*> argv_;
   std::string complaint_;
   bool left_ = false;
 };
