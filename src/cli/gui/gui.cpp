@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <map>
@@ -34,6 +35,15 @@ std::vector<int> surfaces_left(const ModelReport& model) {
   for (const SurfaceReport& surface : model.surfaces)
     if (surface.outcome == SurfaceOutcome::left) left.push_back(surface.tag);
   return left;
+}
+
+/// That has triangles, of those that are wanted; 0 if there is none.
+int first_surface(const adapter::ModelMesh& mesh, const std::vector<int>& wanted) {
+  for (const adapter::EntityMesh& entity : mesh.entities)
+    if (entity.dim == 2 && entity.polygons(3) &&
+        (wanted.empty() || std::count(wanted.begin(), wanted.end(), entity.tag)))
+      return entity.tag;
+  return 0;
 }
 
 void write_text(const std::string& path, const std::string& text, const Call& call) {
@@ -137,11 +147,10 @@ void Gui::choices_changed() {
 }
 
 /// \return false if there was nothing to convert
-bool Gui::convert(Observer* observer) {
+bool Gui::convert(const std::function<Observer*()>& watch) {
   choices_ = read_choices();
   const Request request = read_request(call_.request);
-  Options options = engine_options(request);
-  options.observer = observer;
+  const Options options = engine_options(request);
   player_.reset();
   views_.clear();
   adapter::remove_second_model();
@@ -150,6 +159,7 @@ bool Gui::convert(Observer* observer) {
   const Converted* converted = nullptr;
   try {
     converted = &document_.convert(request, choices_.size_factor, options, [&](Options& now) {
+      if (watch) now.observer = watch();
       now.progress = std::ref(progress.emplace(window_));  // the model is what is converted now
     });
   } catch (const Cancelled&) {
@@ -222,24 +232,18 @@ bool Gui::record() {
   choices_ = read_choices();
   const Request request = read_request(call_.request);
   if (request.cleanup_only) throw UsageError("Clean up only: there is no front then");
-  // What the surfaces are is known once there is a mesh.
   std::optional<FrontWatcher> watcher;
-  const auto choose = [&](int wanted) { watcher.emplace(wanted); };
-  if (choices_.step_surface == 0) {
-    if (!document_.converted() || document_.shows_triangles()) {
-      if (!convert()) return false;
-    }
-    for (const SurfaceReport& surface : document_.converted()->model.surfaces)
-      if (surface.outcome == SurfaceOutcome::converted && !watcher) choose(surface.tag);
-    if (!watcher) throw InputError("no surface has become quads: there is no front to watch");
-  } else {
-    choose(choices_.step_surface);
-  }
+  const auto watch = [&] {
+    const int chosen = choices_.step_surface;
+    return &watcher.emplace(chosen ? chosen : first_surface(document_.triangles().mesh, request.surfaces));
+  };
+  if (!convert(watch)) return false;
   const int surface = watcher->surface();
-  if (!convert(&*watcher)) return false;
   std::vector<std::unique_ptr<FrontLog>> logs = watcher->take();
   if (logs.empty())
-    throw InputError(fmt::format("surface {} has no front: it is not there, or nothing of it was converted", surface));
+    throw InputError(fmt::format(
+        "surface {} has no front: it is not there, or nothing of it was converted; choose another below Step",
+        surface));
   document_.back_to_triangles();
   player_.emplace(surface, std::move(logs));
   return true;
@@ -284,7 +288,7 @@ void Gui::write_report() {
   const std::string path = adapter::text_parameter(parameter::kReportFile);
   adapter::check_place(path);
   report::Recorder recorder({.figures = true});
-  if (!convert(&recorder)) return;
+  if (!convert([&] { return &recorder; })) return;
   document_.back_to_triangles();
   const report::Scene before = read_scene();
   document_.forward_to_quads();
@@ -300,7 +304,7 @@ void Gui::write_film() {
   if (request.cleanup_only) throw UsageError("Clean up only: there is no front then");
   adapter::check_place(path);
   report::Recorder recorder({.films = true});
-  if (!convert(&recorder)) return;
+  if (!convert([&] { return &recorder; })) return;
   const ModelReport& model = document_.converted()->model;
   write_text(path, report::film_page(model, recorder, facts(request, request.output)), call_);
   say(path + " is written");

@@ -31,6 +31,11 @@ LoadedState loaded_state() {
   return state;
 }
 
+void begin_drawing(const std::string& script) {
+  ::gmsh::model::add("untitled");
+  ::gmsh::model::setFileName(script);
+}
+
 void define_parameters(const std::string& json) { ::gmsh::onelab::set(json); }
 
 bool has_parameter(const std::string& name) {

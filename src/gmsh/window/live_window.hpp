@@ -16,6 +16,9 @@ struct LoadedState {
 
 LoadedState loaded_state();
 
+/// An empty model whose drawing goes to a script of that name, as soon as something is drawn.
+void begin_drawing(const std::string& script);
+
 /// Parameters in the tree on the left (ONELAB). Names are paths, as "qmorph/01Size factor": numbers before a word give
 /// the order and are not shown.
 void define_parameters(const std::string& json);
