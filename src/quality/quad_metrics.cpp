@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kTiny = 1e-300;  // keeps 0/0 out; far under any product of two lengths
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kThesisSmallAngleDeg = 6.0;  // [thesis, eq. 2.2]
+constexpr double kThesisSmallAngleTangent = 0.10510423526567646;  // of 6 degrees [thesis, eq. 2.2]
 
 /// The smallest signed sine over the corners of a polygon.
 template <std::size_t N>
@@ -41,6 +41,16 @@ double area_over_squares(const Vector3d& a, const Vector3d& b, const Vector3d& c
 /// Metric of triangle ABC, 1 if it is half of a square cut at its diagonal [thesis, eq. 2.1 and 3.7].
 double half_square_metric(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& normal) {
   return 4 * area_over_squares(a, b, c, normal);
+}
+
+/// Whether a corner is from 0 to 6 degrees, seen against `normal`; without the cost of the angle itself.
+bool has_small_corner(const QuadCorners& p, const Vector3d& normal) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3d ahead = p[(i + 1) % 4] - p[i], behind = p[(i + 3) % 4] - p[i];
+    const double sine = ahead.cross(behind).dot(normal), cosine = ahead.dot(behind);  // both times the same lengths
+    if (cosine >= 0 && sine >= 0 && (sine == 0 || sine < kThesisSmallAngleTangent * cosine)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -76,9 +86,8 @@ double thesis_metric(const QuadCorners& p, const Vector3d& normal) {
   double penalty = 0;
   if (inverted >= 2) {
     penalty = double(inverted - 1);
-  } else {
-    for (const double angle : corner_angles_deg(p, normal))
-      if (angle < kThesisSmallAngleDeg) penalty = 1;
+  } else if (has_small_corner(p, normal)) {
+    penalty = 1;
   }
   return *std::min_element(metrics.begin(), metrics.end()) - penalty;
 }

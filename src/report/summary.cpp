@@ -48,11 +48,13 @@ std::string distance(const Fidelity& fidelity) {
                      fidelity.centre.max);
 }
 
-/// "; nodes on the geometry", and how many are not.
+/// "; nodes on the geometry but 3 of 90; 1 curved side made straight", as far as there is something to say.
 std::string on_geometry(const OnGeometry& nodes) {
-  if (nodes.all() == 0) return "";
-  if (nodes.left == 0) return "; nodes on the geometry";
-  return fmt::format("; nodes on the geometry but {} of {}", nodes.left, nodes.all());
+  std::string said;
+  if (nodes.all() > 0) said = "; nodes on the geometry";
+  if (nodes.left > 0) said += fmt::format(" but {} of {}", nodes.left, nodes.all());
+  if (nodes.straightened > 0) said += fmt::format("; {} made straight", counted(nodes.straightened, "curved side"));
+  return said;
 }
 
 std::string sizes(const std::vector<DirectedSize>& all) {

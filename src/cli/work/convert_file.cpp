@@ -81,7 +81,7 @@ int Conversion::run() {
     return no_surface;
   }
   see_what_will_be_written();
-  faults_ = finish_model(call_, opened_, session);
+  faults_ = finish_model(call_, opened_, session, model_);
   return write();
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gmsh/convert/complaints.hpp"
+#include "gmsh/convert/curve_sides.hpp"
 #include "gmsh/convert/onto_geometry.hpp"
 #include "gmsh/convert/stop_watch.hpp"
 #include "gmsh/model/extrusions.hpp"
@@ -182,11 +183,6 @@ void Run::check(const ConvertedSurface& converted, double beside) const {
     if (const std::optional<Defect> defect = find_defect(part.patch, converted.results[p], quads_are, beside))
       throw SurfaceError("the result is not valid: " + defect->what + "; this is a mistake of qmorph",
                          {.kind = ErrorKind::no_valid_mesh, .place = defect->place});
-    const std::string where =
-        find_bent_corner(model_.mesh, model_.mesh.entities[converted.surface.entity], part, converted.results[p]);
-    if (!where.empty())
-      throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there",
-                         {.kind = ErrorKind::no_valid_mesh});
   }
 }
 
@@ -195,9 +191,10 @@ void Run::check(const ConvertedSurface& converted, double beside) const {
 void Run::settle(ConvertedSurface& converted) {
   StopWatch watch;
   check(converted, kOnTriangles);
-  if (const auto geometry = CadSurface::find(model_.mesh, converted.surface.entity)) {
+  const Lander lander = find_lander(model_.mesh, converted.surface.entity);
+  if (lander) {
     const std::vector<QuadMesh> on_triangles = converted.results;
-    put_onto(*geometry, converted);
+    put_onto(lander, converted);
     try {
       check(converted, kOnGeometry);
     } catch (const SurfaceError&) {
@@ -205,6 +202,7 @@ void Run::settle(ConvertedSurface& converted) {
       converted.on_geometry = {0, converted.on_geometry.all()};
     }
   }
+  curve_sides(model_.mesh, lander, converted);
   report_.check_seconds += watch.lap();
 }
 
@@ -212,9 +210,10 @@ void Run::settle(ConvertedSurface& converted) {
 /// \throws SurfaceError
 void Run::settle_image(ConvertedSurface& converted) {
   StopWatch watch;
-  const auto geometry = CadSurface::find(model_.mesh, converted.surface.entity);
-  check(converted, geometry ? kOnGeometry : kOnTriangles);
-  if (geometry) find_parameters(*geometry, converted);
+  const Lander lander = find_lander(model_.mesh, converted.surface.entity);
+  check(converted, lander ? kOnGeometry : kOnTriangles);
+  if (lander) find_parameters(lander, converted);
+  curve_sides(model_.mesh, lander, converted);
   report_.check_seconds += watch.lap();
 }
 
@@ -250,7 +249,8 @@ void Run::look_at(std::uint32_t entity, SurfaceReport& report) {
 
 /// That no figure tells.
 void Run::find_faults(const SurfaceMesh& surface, SurfaceReport& report) const {
-  const std::string where = find_bent_corner(model_.mesh, model_.mesh.entities[surface.entity]);
+  const EntityMesh& mesh = model_.mesh.entities[surface.entity];
+  const std::string where = order_of(mesh) > 1 ? find_bent(read_curved_elements(model_.mesh, mesh)) : "";
   if (!where.empty()) report.reason = "a curved edge turns an element over " + where;
   if (!surface.edge_of_many.empty())
     report.reason = "it is not a manifold: more than two elements share an edge, " + surface.edge_of_many;

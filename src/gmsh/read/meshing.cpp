@@ -253,6 +253,22 @@ void lower_model(int order) {
     throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
 }
 
+namespace {
+
+/// To where the elements have them.
+void move_middle_nodes(const CurvedElements& elements) {
+  const auto move = [](const MiddleNode& node) {
+    ::gmsh::model::mesh::setNode(node.tag, {node.place.x(), node.place.y(), node.place.z()}, {});
+  };
+  for (Index s = 0; s < elements.sides(); ++s)
+    if (elements.side(s).is_straight)
+      for (const MiddleNode& node : elements.side(s).nodes) move(node);
+  for (Index e = 0; e < elements.elements(); ++e)
+    for (const MiddleNode& node : elements.element(e).inside) move(node);
+}
+
+}  // namespace
+
 RaisedModel raise_model() {
   RaisedModel raised;
   const int order = static_cast<int>(get_option("Mesh.ElementOrder"));
@@ -267,7 +283,12 @@ RaisedModel raise_model() {
   const ModelMesh mesh = read_model_mesh();
   for (const EntityMesh& entity : mesh.entities) {
     if (entity.dim != 2) continue;
-    const std::string where = find_bent_corner(mesh, entity);
+    CurvedElements elements = read_curved_elements(mesh, entity);
+    if (const std::size_t straightened = elements.unfold(); straightened > 0) {
+      raised.straightened += straightened;
+      move_middle_nodes(elements);
+    }
+    const std::string where = find_bent(elements);
     if (!where.empty())
       raised.bent.push_back(fmt::format("surface {}: a curved edge of order {} turns an element over {}; refine there",
                                         entity.tag, order, where));

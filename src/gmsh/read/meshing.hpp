@@ -51,6 +51,7 @@ struct RecombinationOff {
 struct RaisedModel {
   std::vector<std::string> warnings;  ///< of Gmsh
   std::vector<std::string> bent;      ///< surfaces whose curved edges turn an element over, and where
+  std::size_t straightened = 0;       ///< sides of elements that would turn one over
 };
 
 /// The largest one of an element; 1 without any.
