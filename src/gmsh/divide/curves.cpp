@@ -79,10 +79,11 @@ void add_extruded(CurveModel& model) {
     std::vector<Index> fixed, moving;
     for (Index c : sides) (model.curves[c].depends_on_size() ? moving : fixed).push_back(c);
     if (moving.size() != 2 || fixed.empty()) continue;
-    const DividedCurve &a = model.curves[moving[0]], &b = model.curves[moving[1]];
+    DividedCurve &a = model.curves[moving[0]], &b = model.curves[moving[1]];
     const bool same = model.curves[fixed.front()].segments == model.curves[fixed.back()].segments;
-    if (same && a.segments == b.segments && a.finer == b.finer && a.segments > 1)
-      model.images.emplace_back(moving[0], moving[1]);
+    if (!same || a.segments != b.segments || a.finer != b.finer || a.segments <= 1) continue;
+    model.images.emplace_back(moving[0], moving[1]);
+    a.carried = b.carried = true;
   }
 }
 

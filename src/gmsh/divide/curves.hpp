@@ -22,6 +22,7 @@ struct DividedCurve {
   std::vector<double> parameters;       ///< of the finer nodes, with the ends
   std::vector<Eigen::Vector3d> points;  ///< of the same
   double length = 0;
+  bool carried = false;  ///< by an extrusion, or it carries another
 
   double wish() const;  ///< its length in sizes
   double size() const { return segments > 0 ? length / segments : length; }

@@ -89,6 +89,14 @@ void place_nodes(const DividedCurve& curve, int segments) {
     ::gmsh::model::mesh::setNode(nodes[i].second, {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}, {parameters[i]});
 }
 
+/// What Gmsh has been told of a curve. It would forget that it extrudes it, besides.
+void undo(const DividedCurve& curve) {
+  if (curve.carried)
+    ::gmsh::model::mesh::setTransfiniteCurve(curve.tag, curve.segments + 1);
+  else
+    ::gmsh::model::mesh::removeConstraints({{1, curve.tag}});
+}
+
 /// Divides the curves as planned. \return those that Gmsh divides otherwise
 std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
   std::set<Index> changed, stubborn;
@@ -99,14 +107,28 @@ std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
   ::gmsh::model::mesh::generate(1);
   for (Index c = 0; c < model.curves.size(); ++c)
     if (count_segments(model.curves[c].tag) != plan.segments[c]) stubborn.insert(c);
-  if (!stubborn.empty()) {  // as it was
-    ::gmsh::vectorpair entities;
-    for (Index c : changed) entities.emplace_back(1, model.curves[c].tag);
-    ::gmsh::model::mesh::removeConstraints(entities);
-    return stubborn;
+  if (stubborn.empty())
+    for (Index c : changed) place_nodes(model.curves[c], plan.segments[c]);
+  else
+    for (Index c : changed) undo(model.curves[c]);
+  return stubborn;
+}
+
+DivisionReport report_on(const CurveModel& model) {
+  DivisionReport report;
+  report.understood = true;
+  for (const DividedCurve& curve : model.curves)
+    if (!curve.depends_on_size() && curve.segments > 1) report.fixed.push_back(curve.tag);
+  return report;
+}
+
+void add_changes(const CurveModel& model, const IntervalPlan& plan, DivisionReport& report) {
+  for (Index c = 0; c < model.curves.size(); ++c) {
+    const DividedCurve& curve = model.curves[c];
+    if (plan.segments[c] == curve.segments) continue;
+    (plan.segments[c] > curve.segments ? report.more : report.fewer).push_back(curve.tag);
+    if (!curve.carried) report.told.push_back(curve.tag);
   }
-  for (Index c : changed) place_nodes(model.curves[c], plan.segments[c]);
-  return {};
 }
 
 }  // namespace
@@ -121,8 +143,7 @@ bool has_odd_boundary(int surface) {
 
 void forget_division(const DivisionReport& report) {
   ::gmsh::vectorpair entities;
-  for (const std::vector<int>* curves : {&report.more, &report.fewer})
-    for (int curve : *curves) entities.emplace_back(1, curve);
+  for (int curve : report.told) entities.emplace_back(1, curve);
   if (!entities.empty()) ::gmsh::model::mesh::removeConstraints(entities);
 }
 
@@ -131,28 +152,21 @@ DivisionReport divide_curves(const DivisionTask& task) {
   constexpr double kSimplePairing = 0;  // the only one of Gmsh's ways to recombine for which numbers may be odd
   const ScopedOption all("Mesh.RecombineAll", 0), algorithm("Mesh.RecombinationAlgorithm", kSimplePairing);
   const std::optional<CurveModel> model = divide_as_wished(task.surfaces);
-  DivisionReport report;
-  if (!model) return report;
-  report.understood = true;
-  for (const DividedCurve& curve : model->curves)
-    if (!curve.depends_on_size() && curve.segments > 1) report.fixed.push_back(curve.tag);
+  if (!model) return {};
+  DivisionReport report = report_on(*model);
   std::set<Index> stubborn;
-  for (int round = 0;; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     const IntervalPlan plan = parity::plan_intervals(pose(*model, task, stubborn));
     const std::set<Index> others = carry_out(*model, plan);
-    if (!others.empty() && round < kRounds) {
-      stubborn.insert(others.begin(), others.end());
-      continue;
-    }
-    if (!others.empty()) ::gmsh::model::mesh::generate(1);
-    for (Index c = 0; c < model->curves.size() && others.empty(); ++c) {
-      const int change = plan.segments[c] - model->curves[c].segments;
-      if (change != 0) (change > 0 ? report.more : report.fewer).push_back(model->curves[c].tag);
-    }
+    stubborn.insert(others.begin(), others.end());
+    if (!others.empty()) continue;
+    add_changes(*model, plan, report);
     for (Index s : plan.odd)
       if (s < model->surfaces.size()) report.odd_surfaces.push_back(model->surfaces[s].tag);
     return report;
   }
+  ::gmsh::model::mesh::generate(1);
+  return report;
 }
 
 }  // namespace qmorph::adapter

@@ -19,6 +19,7 @@ struct DivisionReport {
   bool understood = false;        ///< there is no compound, for one
   std::vector<int> more, fewer;   ///< curves that got more or fewer segments than Gmsh gives them
   std::vector<int> fixed;         ///< curves whose number does not depend on the size: transfinite, or of layers
+  std::vector<int> told;          ///< curves of which Gmsh has been told a number, and may forget it
   std::vector<int> odd_surfaces;  ///< by their curves
 };
 
@@ -31,7 +32,8 @@ DivisionReport divide_curves(const DivisionTask& task);
 /// By the line elements of its curves.
 bool has_odd_boundary(int surface);
 
-/// Gmsh would keep to the numbers.
+/// Or Gmsh would keep to the numbers when it meshes the curves again. Those of extruded curves it keeps: it would forget
+/// that they are.
 void forget_division(const DivisionReport& report);
 
 }  // namespace qmorph::adapter

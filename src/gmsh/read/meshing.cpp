@@ -173,8 +173,8 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
       if (!flags.recombined.empty()) forbid_pairing(flags.recombined);
       ::gmsh::model::mesh::generate(2);
     });
-    if (!fitting || std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) return log;
     run_logged([&] { forget_division(division); });
+    if (!fitting || std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) return log;
     const std::set<int> named = curves_in(log);
     const std::size_t before = curves.kept_curves.size();
     curves.kept_curves.insert(named.begin(), named.end());

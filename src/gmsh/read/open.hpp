@@ -24,6 +24,7 @@ inline constexpr int kDefaultAlgorithm = 6;
 struct OpenedModel {
   MshHeader msh;                                 ///< version 0: not a .msh file
   bool had_mesh = false;                         ///< surfaces have elements from a file, not from Gmsh's mesher
+  bool compounds = false;                        ///< a script makes some
   bool meshed = false;                           ///< by Gmsh, something
   Msh2Origin origin;                             ///< of a file of MSH 2 that had to be taken apart
   MeshData views;                                ///< data on the mesh of the file

@@ -60,8 +60,6 @@ class LiveWindow {
   void turn(double seconds);
   /// Shows parameters that have been set, and draws.
   void refresh();
-  /// Draws only.
-  void draw();
   /// A line at the bottom.
   void status(const std::string& text);
   /// Surfaces that the user clicks on, by tag; empty if they give up. The window lives on meanwhile.
