@@ -92,10 +92,11 @@ void Document::mesh(double size_factor) {
     adapter::clear_mesh();
     meshed_with_.reset();
   }
-  const adapter::MeshingTask task = adapter::find_meshing_task(opened_.msh.version != 0);
+  adapter::MeshingTask task = adapter::find_meshing_task(opened_.msh.version != 0);
+  task.compounds = opened_.compounds;
   if (task.is_empty() || call_.request.no_meshing) return;
   const bool all_is_ours = task.kept.empty();
-  for (const std::string& warning : adapter::mesh_surfaces(task))
+  for (const std::string& warning : adapter::mesh_surfaces(task, call_.request.keep_curves).warnings)
     adapter::log_line(warning, adapter::Severity::warning);
   if (all_is_ours) meshed_with_ = size_factor;
 }
