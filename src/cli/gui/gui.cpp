@@ -208,7 +208,8 @@ int show_gui(const Call& call) {
   const StdoutAsStderr redirected;
   adapter::Session session(call.request.gmsh_arguments);
   begin_session(call, session);
-  if (const std::string reason = adapter::find_no_window(); !reason.empty()) throw UsageError("--gui: " + reason);
+  const adapter::Display display;
+  if (!display.trouble().empty()) throw UsageError("--gui: " + display.trouble());
   call.begin(bad_usage, "--gui: the window cannot be opened");
   Gui gui(call, session);
   while (gui.is_open()) gui.turn(-1);

@@ -22,7 +22,7 @@ namespace qmorph::cli {
 
 class Gui {
  public:
-  /// Opens the window on the command line's file. \pre find_no_window() is empty
+  /// Opens the window on the command line's file. \pre there is a Display
   /// \throws Error
   Gui(const Call& call, adapter::Session& session);
 

@@ -6,6 +6,7 @@
 
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
+#include "qmorph/error.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -117,7 +118,8 @@ LiveWindow::LiveWindow() {
   set_option("General.MenuWidth", kMenuWidth);
   set_option("General.GraphicsWidth", kGraphicsWidth);
   set_option("General.GraphicsHeight", kGraphicsHeight);
-  ::gmsh::fltk::initialize();
+  if (!run_logged([] { ::gmsh::fltk::initialize(); }).errors.empty() || !is_open())
+    throw UsageError("--gui: this Gmsh was built without its window");
 }
 
 bool LiveWindow::is_open() const { return ::gmsh::fltk::isAvailable() > 0; }

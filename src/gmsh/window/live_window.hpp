@@ -51,9 +51,10 @@ void set_mesh_look();
 void show_curves(bool visible);
 void show_surface(int tag, bool visible);
 
-/// The window from construction on. \pre a Session, and find_no_window() is empty. Only in the main thread.
+/// The window from construction on. \pre a Session and a Display. Only in the main thread.
 class LiveWindow {
  public:
+  /// \throws UsageError if this Gmsh was built without it
   LiveWindow();
   bool is_open() const;
   /// Handles what the user does, for at most so many seconds; without limit if negative, until something is done.

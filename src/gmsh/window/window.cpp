@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/window/window.hpp"
 
-#include <fcntl.h>
+#include <dlfcn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,27 +37,26 @@ bool is_set(const char* variable) {
   ::_exit(log.errors.empty() ? 0 : kNoWindow);
 }
 
-/// In the child process, which says nothing. Never returns.
-[[noreturn]] void try_window() {
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDERR_FILENO);
-  const StageLog log = run_logged([] { ::gmsh::fltk::initialize(); });
-  ::_exit(log.errors.empty() ? 0 : kNoWindow);
+/// A function of the X library, which Gmsh's window brings along; null where it has none.
+template <typename Function>
+Function* find_x(const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(RTLD_DEFAULT, name));
 }
 
 }  // namespace
 
-std::string find_no_window() {
+Display::Display() {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
-    return "there is no display to open a window on (DISPLAY is not set)";
-  const ::pid_t child = ::fork();
-  if (child < 0) return "no process can be started to try whether there is a window";
-  if (child == 0) try_window();
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoWindow) return "this Gmsh was built without its window";
-  return "no window can be opened on the display (DISPLAY, WAYLAND_DISPLAY)";
+    trouble_ = "there is no display to open a window on (DISPLAY is not set)";
+  auto* const open = find_x<void*(const char*)>("XOpenDisplay");
+  if (!is_set("DISPLAY") || !open) return;
+  connection_ = open(nullptr);
+  if (!connection_ && !is_set("WAYLAND_DISPLAY"))
+    trouble_ = std::string("the display ") + std::getenv("DISPLAY") + " cannot be opened";
+}
+
+Display::~Display() {
+  if (auto* const close = find_x<int(void*)>("XCloseDisplay"); close && connection_) close(connection_);
 }
 
 std::string show_in_window(const std::string& path) {
