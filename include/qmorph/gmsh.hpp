@@ -32,15 +32,17 @@ enum class SurfaceOutcome {
   left,           ///< it could not be converted and is as it was; `reason` says why
 };
 
-/// Where the nodes lie that a curved surface of a geometry has got, or one whose triangles are curved themselves. Other
-/// surfaces have none: the triangles are all there is.
+/// Where the nodes lie that a curved surface of a geometry has got, or one whose triangles are curved themselves, those
+/// between corners too. Other surfaces have none: the triangles are all there is.
 struct OnGeometry {
   std::size_t nodes = 0;  ///< that are new or have moved, on it
   /// That stay on the triangles: an element would be spoiled, or there is no way to the geometry.
   std::size_t left = 0;
+  std::size_t straightened = 0;  ///< sides of elements of a higher order: curved, they would fold one
 
   std::size_t all() const { return nodes + left; }
-  void add(const OnGeometry& other) { nodes += other.nodes, left += other.left; }
+  bool any() const { return all() + straightened > 0; }
+  void add(const OnGeometry& other) { nodes += other.nodes, left += other.left, straightened += other.straightened; }
 };
 
 /// One surface, before and after.

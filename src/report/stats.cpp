@@ -55,7 +55,9 @@ Json fidelity_json(const Fidelity& f) {
       {"warpage_deg", spread_json(f.warpage_deg)}};
 }
 
-Json on_geometry_json(const OnGeometry& nodes) { return {{"nodes", nodes.nodes}, {"left", nodes.left}}; }
+Json on_geometry_json(const OnGeometry& nodes) {
+  return {{"nodes", nodes.nodes}, {"left", nodes.left}, {"straightened", nodes.straightened}};
+}
 
 /// How many quads under 0.3 there are for each reason.
 Json poor_json(const std::array<std::size_t, kPoorReasons>& counts) {
@@ -164,7 +166,7 @@ Json surface_json(const SurfaceReport& s, const Recorder& recorder) {
   if (s.outcome != SurfaceOutcome::left) json["quality"] = quality_json(s.quality);
   if (s.outcome == SurfaceOutcome::converted) {
     if (s.fidelity.quads) json["in_space"] = fidelity_json(s.fidelity);
-    if (s.on_geometry.all()) json["on_geometry"] = on_geometry_json(s.on_geometry);
+    if (s.on_geometry.any()) json["on_geometry"] = on_geometry_json(s.on_geometry);
     if (!s.poor.empty()) json["poor_quads"] = poor_json(s.poor);
     const History* history = recorder.find(s);
     json["engine"] = engine_json(s.conversion, history ? *history : History());
@@ -190,7 +192,7 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
   json["warnings"] = model.warnings;
   json["total"] = quality_json(model.total);
   if (model.fidelity.quads) json["in_space"] = fidelity_json(model.fidelity);
-  if (model.on_geometry.all()) json["on_geometry"] = on_geometry_json(model.on_geometry);
+  if (model.on_geometry.any()) json["on_geometry"] = on_geometry_json(model.on_geometry);
   json["poor_quads"] = poor_json(model.count_poor());
   const History sum = sum_of(model, recorder);
   ConversionReport conversions;
@@ -200,6 +202,10 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
   json["directed_size_ratio"] = directions_json(conversions.sizes);
   json["stages"] = stages_json(sum.stages);
   if (facts.even) json["all_quad"] = even_json(*facts.even);
+  if (facts.division.understood)
+    json["curves"] = {{"more_segments", facts.division.more},
+                      {"fewer_segments", facts.division.fewer},
+                      {"splits", even_json(facts.mended)["splits"]}};
   if (facts.volumes.volumes)
     json["volumes"] = {{"volumes", facts.volumes.volumes},
                        {"hexahedra", facts.volumes.hexahedra},

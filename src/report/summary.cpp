@@ -48,11 +48,13 @@ std::string distance(const Fidelity& fidelity) {
                      fidelity.centre.max);
 }
 
-/// "; nodes on the geometry", and how many are not.
+/// "; nodes on the geometry but 3 of 90; 1 curved side made straight", as far as there is something to say.
 std::string on_geometry(const OnGeometry& nodes) {
-  if (nodes.all() == 0) return "";
-  if (nodes.left == 0) return "; nodes on the geometry";
-  return fmt::format("; nodes on the geometry but {} of {}", nodes.left, nodes.all());
+  std::string said;
+  if (nodes.all() > 0) said = "; nodes on the geometry";
+  if (nodes.left > 0) said += fmt::format(" but {} of {}", nodes.left, nodes.all());
+  if (nodes.straightened > 0) said += fmt::format("; {} made straight", counted(nodes.straightened, "curved side"));
+  return said;
 }
 
 std::string sizes(const std::vector<DirectedSize>& all) {
@@ -136,6 +138,22 @@ std::string even_line(const EvenReport& even) {
     line += fmt::format("; no way to make surface{} {} even", even.odd_surfaces.size() == 1 ? "" : "s",
                         fmt::join(even.odd_surfaces, ", "));
   return line;
+}
+
+std::string division_line(const adapter::DivisionReport& division, const EvenReport& mended) {
+  const auto name = [](const std::vector<int>& curves, const char* how) {
+    constexpr std::size_t kMostNamed = 12;
+    return curves.empty()                ? std::string()
+           : curves.size() <= kMostNamed ? fmt::format("{} ({}) {}", curves.size(), fmt::join(curves, ", "), how)
+                                         : fmt::format("{} {}", curves.size(), how);
+  };
+  std::vector<std::string> parts;
+  for (const std::string& part : {name(division.more, "have more"), name(division.fewer, "have fewer")})
+    if (!part.empty()) parts.push_back(part);
+  if (!mended.splits.empty()) parts.push_back(counted(mended.splits.size(), "segment") + " got a node afterwards");
+  if (parts.empty()) return {};
+  return fmt::format("curves with other numbers of segments than Gmsh's, for even boundaries and rows that fit: {}",
+                     fmt::join(parts, ", "));
 }
 
 }  // namespace qmorph::report

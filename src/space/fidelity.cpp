@@ -142,7 +142,7 @@ void FidelityAccumulator::add_any(const Patch& before, const QuadMesh& after) {
     if (!seen[a]) seen[a] = 1, node_.add(share(result.foot(side / 4, a).distance2, length[a]), points[a]);
     if (sides.opposite(side) != kNone && sides.opposite(side) < side) continue;
     const Vector3d middle = 0.5 * (points[a] + points[b]);
-    const Foot foot = result.surface().walk(middle, result.triangle(side / 4));
+    const Foot foot = result.normals().closest(middle, result.triangle(side / 4));
     side_.add(share(foot.distance2, 0.5 * (length[a] + length[b])), middle);
   }
   for (Index q = 0; q < after.quads.size(); ++q) {
@@ -150,7 +150,7 @@ void FidelityAccumulator::add_any(const Patch& before, const QuadMesh& after) {
     double edge = 0;
     for (std::size_t i = 0; i < 4; ++i) p[i] = points[after.quads[q][i]], edge += 0.25 * length[after.quads[q][i]];
     const Vector3d centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const Foot foot = result.surface().walk(centre, result.triangle(Index(after.triangles.size()) + q));
+    const Foot foot = result.normals().closest(centre, result.triangle(Index(after.triangles.size()) + q));
     centre_.add(share(foot.distance2, edge), centre);
     normal_deg_.add(angle_deg(space::element_normal(p), result.surface().normal(foot.triangle)), centre);
     warpage_deg_.add(warpage_deg(p), centre);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "space/improve.hpp"
 
+#include <optional>
+
 #include "engine/regions.hpp"
 #include "space/faults.hpp"
 #include "space/repair.hpp"
 #include "space/settle.hpp"
 #include "space/smooth.hpp"
+#include "space/surface_normals.hpp"
 
 namespace qmorph::space {
 namespace {
@@ -16,21 +19,31 @@ std::vector<Background::Edge> barriers(const chart::CurvedRegion& region) {
   return edges;
 }
 
-bool is_folded_under(const MeshOnSurface& mesh, Index f) {
-  const chart::Face& face = mesh.mesh().faces[f];
-  const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh.point(face[i]); };
-  const Index hint = mesh.mesh().near[f];
-  return chart::degree(face) == 4
-             ? is_folded_under<4>(mesh.whole(), mesh.whole_normals(), {at(0), at(1), at(2), at(3)}, hint)
-             : is_folded_under<3>(mesh.whole(), mesh.whole_normals(), {at(0), at(1), at(2)}, hint);
-}
+/// Which faces lie where the surface itself is folded; what lies beyond a crease does not count.
+class Folds {
+ public:
+  Folds(const MeshOnSurface& mesh, const Background& surface) : mesh_(mesh), surface_(surface) {}
 
-std::vector<Index> doubtful_faces(const MeshOnSurface& mesh) {
+  bool are_under(Index f) {
+    if (!normals_) normals_.emplace(surface_);
+    const chart::Face& face = mesh_.mesh().faces[f];
+    const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh_.point(face[i]); };
+    const Index hint = mesh_.mesh().near[f];
+    return chart::degree(face) == 4 ? is_folded_under<4>(surface_, *normals_, {at(0), at(1), at(2), at(3)}, hint)
+                                    : is_folded_under<3>(surface_, *normals_, {at(0), at(1), at(2)}, hint);
+  }
+
+ private:
+  const MeshOnSurface& mesh_;
+  const Background& surface_;
+  std::optional<SurfaceNormals> normals_;  ///< made when it is asked for: most surfaces have no fold
+};
+
+std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
   constexpr double kLeastRise = 0.1;
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.faces(); ++f)
-    if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !is_folded_under(mesh, f))
-      faces.push_back(f);
+    if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !folds.are_under(f)) faces.push_back(f);
   return faces;
 }
 
@@ -44,15 +57,16 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
     smooth(view, options);
     settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
-    if (find_poor(view, 0).empty()) return {{}, doubtful_faces(view)};
+    if (Folds folds(view, surface); find_poor(view, 0).empty()) return {{}, doubtful_faces(view, folds)};
   }
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
   MeshOnSurface view(mesh, creases, surface, *region.background);
   smooth_near(view, options, raise_poor(view, options));
+  Folds folds(view, surface);
   Faults faults;
   for (const PoorFace& poor : find_poor(view, 0))
-    if (!is_folded_under(view, poor.face)) faults.turned.push_back(poor.face);
-  if (faults.turned.empty()) faults.doubtful = doubtful_faces(view);
+    if (!folds.are_under(poor.face)) faults.turned.push_back(poor.face);
+  if (faults.turned.empty()) faults.doubtful = doubtful_faces(view, folds);
   return faults;
 }
 

@@ -46,10 +46,17 @@ std::vector<OpenSide> open_sides(const Background& surface) {
   return sides;
 }
 
+/// Whether a foot's point lies on the triangle as good as exactly, so that no other one can be meant.
+bool is_on(const Background& surface, const Foot& foot) {
+  constexpr double kOn = 1e-3;  // of a side
+  const Vector3d &a = surface.corner(foot.triangle, 0), &b = surface.corner(foot.triangle, 1);
+  return foot.distance2 <= kOn * kOn * (b - a).squaredNorm();
+}
+
 class Search {
  public:
-  Search(const ElementsOnSurface& mesh, const ElementSides& sides)
-      : mesh_(mesh), sides_(sides), found_(sides.elements(), kNone) {}
+  Search(const ElementsOnSurface& mesh, const ElementSides& sides, const SurfaceNormals& normals)
+      : mesh_(mesh), sides_(sides), normals_(normals), found_(sides.elements(), kNone) {}
 
   std::vector<Index> run() {
     if (mesh_.surface.triangles() == 0) return std::move(found_);
@@ -105,7 +112,7 @@ class Search {
         if (sides_.opposite(side) == kNone) continue;
         const Index other = sides_.opposite(side) / 4;
         if (found_[other] != kNone) continue;
-        found_[other] = mesh_.surface.walk(centre(other), found_[side / 4]).triangle;
+        found_[other] = normals_.closest(centre(other), found_[side / 4]).triangle;
         queue_.push_back(other);
       }
     queue_.clear();
@@ -113,6 +120,7 @@ class Search {
 
   const ElementsOnSurface& mesh_;
   const ElementSides& sides_;
+  const SurfaceNormals& normals_;
   std::vector<Index> found_;  ///< by element
   std::vector<Index> queue_;
 };
@@ -139,7 +147,7 @@ SurfaceNormals::SurfaceNormals(const Background& surface) : surface_(surface) {
 
 Foot SurfaceNormals::closest(const Vector3d& p, Index hint) const {
   const Foot walked = surface_.walk(p, hint);
-  if (!tree_ || surface_.is_smooth(walked.triangle)) return walked;
+  if (!tree_ || (surface_.is_smooth(walked.triangle) && is_on(surface_, walked))) return walked;
   const Foot found = tree_->closest(p, std::sqrt(walked.distance2), part_, part_[hint]);
   return found.triangle == kNone ? walked : found;
 }
@@ -162,8 +170,8 @@ CornerNormals<N> SurfaceNormals::of(const Corners<N>& p, Index hint) const {
 template CornerNormals<3> SurfaceNormals::of(const Corners<3>&, Index) const;
 template CornerNormals<4> SurfaceNormals::of(const Corners<4>&, Index) const;
 
-std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides) {
-  return Search(mesh, sides).run();
+std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides, const SurfaceNormals& normals) {
+  return Search(mesh, sides, normals).run();
 }
 
 }  // namespace qmorph::space

@@ -43,9 +43,9 @@ struct ElementsOnSurface {
 };
 
 /// The triangle of the surface that is closest to each element's centre, on the right side of barriers: from a side of
-/// the element that is one of the surface, or else by a walk from a neighbour. `sides` are the elements', with the same
-/// barriers. Elements that are joined to no such side are looked for everywhere.
-/// Cost: linear, but for those: n log n.
-std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides);
+/// the element that is one of the surface, or else near a neighbour's. `sides` are the elements', with the same
+/// barriers; `normals` are the surface's. Elements that are joined to no such side are looked for everywhere.
+/// Cost: linear, but for those and where the surface is not smooth: n log n.
+std::vector<Index> locate(const ElementsOnSurface& mesh, const ElementSides& sides, const SurfaceNormals& normals);
 
 }  // namespace qmorph::space

@@ -198,6 +198,79 @@ TEST_CASE("consumers: the family of a deck's elements") {
   CHECK(Run("mfem", square(), {"--elements", "CPE"}).result.status == 1);
 }
 
+/// A quarter of a cylinder's wall, and the square at this height.
+const char* const kWall =
+    "SetFactory(\"OpenCASCADE\");\nCircle(1) = {0, 0, 0, 1, 0, Pi / 2};\nExtrude {0, 0, 1} { Curve{1}; }\n"
+    "Mesh.MeshSizeMax = 0.3;\nPhysical Surface(\"wall\", 1) = {1};\nPhysical Curve(\"rim\", 2) = {1};\n";
+std::string at_height(const std::string& z) {
+  return "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, " + z +
+         ", 1, 1};\nMesh.MeshSizeMax = 0.2;\nPhysical Surface(\"plate\", 1) = {1};\n"
+         "Physical Curve(\"bottom\", 2) = {1};\n";
+}
+
+TEST_CASE("consumers: surfaces that are not in the plane z = 0 are shells in a deck") {
+  const struct {
+    std::string script;
+    const char *order, *type;
+  } kCases[] = {
+      {kWall, "1", "S4"}, {kWall, "2", "S8"}, {at_height("0.5"), "1", "S4"}, {at_height("1e-15"), "1", "CPS4"}};
+  for (const auto& the_case : kCases)
+    for (const char* reader : {"calculix", "abaqus"}) {
+      CAPTURE(the_case.type);
+      const Run run(reader, the_case.script, {"-order", the_case.order});
+      CAPTURE(run.result.err);
+      REQUIRE(run.result.status == 0);
+      CHECK(mentions(run.text, std::string("*ELEMENT, TYPE=") + the_case.type + ","));
+    }
+  CHECK(!mentions(Run("calculix", at_height("1e-15")).text, "e-1"));
+  for (const char* family : {"CPS", "CPER", "CAX"}) {
+    const Run run("calculix", kWall, {"--elements", family});
+    CHECK(run.result.status == 6);
+    CHECK(mentions(run.result.err,
+                   std::string("elements ") + family + " lie in the plane z = 0, and this mesh has a node at ("));
+    CHECK(mentions(run.result.err, "--elements S makes shells"));
+  }
+}
+
+TEST_CASE("consumers: triangles that are left are shells like their neighbours") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.2}, {0, 1, 0.2}, {0, 2, 0}},
+                                         {"2 2 1 1 1 2 3", "2 2 1 1 1 3 4", "2 2 1 1 4 3 5"}));
+  for (const char* order : {"1", "2"}) {
+    const Result result =
+        run_qmorph({directory / "in.msh", "-order", order, "-o", directory / "out.inp", "--for", "calculix"});
+    CAPTURE(result.err);
+    REQUIRE(result.status == 0);
+    const std::string text = read_file(directory / "out.inp");
+    CHECK(mentions(text, *order == '1' ? "TYPE=S3," : "TYPE=S6,"));
+    CHECK(mentions(text, *order == '1' ? "TYPE=S4," : "TYPE=S8,"));
+  }
+}
+
+TEST_CASE("consumers: Gmsh's own decks have shells in space, too") {
+  const TemporaryDirectory directory;
+  write_file(directory / "wall.geo", kWall);
+  write_file(directory / "flat.geo", square());
+  for (const char* order : {"1", "2"}) {
+    REQUIRE(run_qmorph({"-2", directory / "wall.geo", "-order", order, "-o", directory / "out.inp"}).status == 0);
+    const std::string shells = read_file(directory / "out.inp");
+    CHECK(mentions(shells, std::string("*ELEMENT, type=S") + (*order == '1' ? "4," : "8,")));
+    CHECK(!mentions(shells, "CPS"));
+    REQUIRE(run_qmorph({"-2", directory / "flat.geo", "-order", order, "-o", directory / "out.inp"}).status == 0);
+    CHECK(mentions(read_file(directory / "out.inp"), std::string("type=CPS") + (*order == '1' ? "4," : "8,")));
+  }
+}
+
+TEST_CASE("consumers: readers of planar meshes refuse others in their own terms") {
+  const Run su2("su2", kWall);
+  CHECK(su2.result.status == 6);
+  CHECK(mentions(su2.result.err, "SU2 takes surfaces in a plane z = constant alone, and this mesh has nodes at ("));
+  CHECK(su2.directory.files() == std::vector<std::string>{"in.geo"});
+  CHECK(mentions(Run("specfem2d", kWall).result.err, "SPECFEM2D takes surfaces in a plane z = constant alone"));
+  CHECK(Run("su2", at_height("0.5")).result.status == 0);
+  for (const char* reader : {"dealii", "mfem", "dolfinx", "elmer"}) CHECK(Run(reader, kWall).result.status == 0);
+}
+
 TEST_CASE("consumers: SU2 gets markers, counterclockwise quads and numbers from 0") {
   const Run run("su2", square());
   CAPTURE(run.result.err);

@@ -131,8 +131,29 @@ TEST_CASE("in space: each element finds the triangle under its centre, on its si
   const space::ElementSides sides(c.mesh.points.size(), c.mesh.triangles, c.mesh.quads);
   for (const bool with_source : {true, false}) {
     const std::vector<Index> source = with_source ? c.mesh.source : std::vector<Index>{};
-    const auto found = space::locate({reference.surface, c.mesh.points, c.mesh.triangles, c.mesh.quads, source}, sides);
+    const auto found = space::locate({reference.surface, c.mesh.points, c.mesh.triangles, c.mesh.quads, source}, sides,
+                                     space::SurfaceNormals(reference.surface));
     for (Index q = 0; q < c.mesh.quads.size(); ++q) CHECK(found[q] / 2 == q);  // triangles lie two by two in the cells
+  }
+}
+
+TEST_CASE("in space: a point on one side of a thin sheet is not looked for on the other, wherever the search starts") {
+  // Two strips of squares a tenth apart, joined at one end by a rim.
+  constexpr Index kSquares = 6;
+  std::vector<Vector3d> points;
+  std::vector<space::Background::Triangle> triangles;
+  const auto add_row = [&](double x, double z) { points.insert(points.end(), {Vector3d(x, 0, z), Vector3d(x, 1, z)}); };
+  for (Index i = 0; i <= kSquares; ++i) add_row(double(i), 0);
+  for (Index i = kSquares + 1; i-- > 0;) add_row(double(i), 0.1);
+  for (Index a = 0; a + 2 < points.size(); a += 2) {
+    triangles.push_back({a, a + 2, a + 3});
+    triangles.push_back({a, a + 3, a + 1});
+  }
+  const space::Background surface(points, triangles);
+  const space::SurfaceNormals normals(surface);
+  for (Index t = 0; t < triangles.size(); ++t) {
+    const Vector3d centre = (surface.corner(t, 0) + surface.corner(t, 1) + surface.corner(t, 2)) / 3;
+    for (Index hint = 0; hint < triangles.size(); ++hint) CHECK(normals.closest(centre, hint).triangle == t);
   }
 }
 

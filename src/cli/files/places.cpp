@@ -38,7 +38,7 @@ adapter::OutputPlan check_places(const Request& request) {
   std::string format = request.format;
   if (!request.consumer.empty()) {
     const std::string_view wanted = adapter::find_consumer(request.consumer).format;
-    if (!adapter::is_element_family(request.elements))
+    if (!request.elements.empty() && !adapter::is_element_family(request.elements))
       throw UsageError(fmt::format("--elements: '{}' is none of CPS, CPE, CAX, S, M3D, with or without an R behind it",
                                    request.elements));
     if (!format.empty() && format != wanted)

@@ -26,7 +26,7 @@ struct Request {
   std::string stage = "final", colour = "sj";  ///< of the pictures
   std::vector<std::string> merged;             ///< further files, merged with the input
   std::string consumer;                        ///< of --for
-  std::string elements = "CPS";                ///< family of a deck's surface elements
+  std::string elements;                        ///< family of a deck's surface elements; empty: the mesh decides
   Thresholds thresholds;
   std::string against;  ///< file with the mesh that --check measures distances to, or empty
   std::vector<int> surfaces;
@@ -43,6 +43,7 @@ struct Request {
   bool orient = false;      ///< neighbouring elements agree in the end
   bool views = false;       ///< figures go into the mesh file, or beside it
   bool view = false;        ///< Gmsh's window in the end
+  bool gui = false;         ///< Gmsh's window with a panel, and nothing else
   bool check = false;       ///< judge the mesh, write nothing
   bool no_meshing = false;  ///< -save: what has no elements gets none
   bool drop_volumes = false;

@@ -10,7 +10,8 @@
 
 namespace qmorph::cli {
 
-std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& opened, adapter::Session& session) {
+std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& opened, adapter::Session& session,
+                                      ModelReport& model) {
   const Request& request = call.request;
   adapter::MeshedVolumes volumes;
   const auto note = [&](const std::vector<std::string>& warnings) {
@@ -26,6 +27,7 @@ std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& op
   for (const std::string& what : volumes.told) call.warn(what);
   const adapter::RaisedModel raised = adapter::raise_model();
   note(raised.warnings);
+  model.on_geometry.straightened += raised.straightened;
   if (!opened.had_mesh) adapter::renumber();
   if (request.partitions > 0) {
     opened.carried = adapter::carry_over(opened.views);  // partitions take the elements from their surfaces

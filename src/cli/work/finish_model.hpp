@@ -9,14 +9,16 @@
 #include "gmsh/read/open.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/write/write.hpp"
+#include "qmorph/gmsh.hpp"
 
 namespace qmorph::cli {
 
 /// What comes after the quads: volumes on them, the order of all elements, partitions. Gmsh's warnings go into
-/// `opened`.
+/// `opened`, what else there is to say into `model`.
 /// \throws InputError, BrokenModel
 /// \return what is not as it should be
-std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& opened, adapter::Session& session);
+std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& opened, adapter::Session& session,
+                                      ModelReport& model);
 
 /// Changes of the model that the reader, or the readers of the format, ask for. \throws InputError
 void prepare_for_readers(const Call& call, const adapter::OutputPlan& plan);

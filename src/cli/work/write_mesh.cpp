@@ -16,10 +16,11 @@ namespace {
 void write_for_consumer(const Request& request, const adapter::OpenedModel& opened, adapter::StagedFile& file) {
   const adapter::Consumer& consumer = adapter::find_consumer(request.consumer);
   const bool everything = opened.msh.version != 0 || adapter::get_option("Mesh.SaveAll") != 0;
-  const adapter::ConsumerMesh mesh = adapter::collect_for(consumer, everything);
+  adapter::ConsumerMesh mesh = adapter::collect_for(consumer, everything);
+  const std::string family = consumer.format == "inp" ? adapter::choose_family(request.elements, mesh) : std::string();
   if (!mesh.complaints.empty()) throw ReaderError{mesh.complaints};
   if (consumer.format == "inp")
-    adapter::write_inp_for(mesh, request.elements, file.path());
+    adapter::write_inp_for(mesh, family, file.path());
   else if (consumer.format == "msh2")
     adapter::write_msh2_for(consumer, mesh, file.path());
   else

@@ -12,7 +12,7 @@ std::vector<OnInput> places_of(const std::vector<Index>& nodes, const space::Res
   places.reserve(nodes.size());
   for (const Index v : nodes) {
     const space::Foot& foot = result.foot(v);
-    OnInput place{result.mesh().points[v], foot.weights, {}};
+    OnInput place{.point = result.mesh().points[v], .weights = foot.weights, .corners = {}};
     for (int i = 0; i < 3; ++i)
       place.corners[std::size_t(i)] = part.rows[result.surface().corners(foot.triangle)[std::size_t(i)]];
     places.push_back(place);
@@ -29,7 +29,7 @@ OnGeometry move(const std::vector<Index>& nodes, const std::vector<Landing>& lan
   return {moves.size() - stayed, nodes.size() - moves.size() + stayed};
 }
 
-void settle(const CadSurface& geometry, ConvertedSurface& surface, bool may_move) {
+void settle(const Lander& lander, ConvertedSurface& surface, bool may_move) {
   surface.parameters.clear();
   surface.on_geometry = {};
   for (std::size_t p = 0; p < surface.results.size(); ++p) {
@@ -37,7 +37,7 @@ void settle(const CadSurface& geometry, ConvertedSurface& surface, bool may_move
     QuadMesh& mesh = surface.results[p];
     const space::Result result(part.patch, mesh);
     const std::vector<Index> nodes = space::movable_nodes(result, part.patch);
-    const std::vector<Landing> landings = geometry.land(places_of(nodes, result, part));
+    const std::vector<Landing> landings = lander(places_of(nodes, result, part));
     auto& parameters = surface.parameters.emplace_back(mesh.points.size(), kNoParameters);
     for (std::size_t i = 0; i < nodes.size(); ++i) parameters[nodes[i]] = landings[i].parameters;
     if (may_move && !is_planar(part.patch)) surface.on_geometry.add(move(nodes, landings, result, mesh));
@@ -46,8 +46,8 @@ void settle(const CadSurface& geometry, ConvertedSurface& surface, bool may_move
 
 }  // namespace
 
-void find_parameters(const CadSurface& geometry, ConvertedSurface& surface) { settle(geometry, surface, false); }
+void find_parameters(const Lander& lander, ConvertedSurface& surface) { settle(lander, surface, false); }
 
-void put_onto(const CadSurface& geometry, ConvertedSurface& surface) { settle(geometry, surface, true); }
+void put_onto(const Lander& lander, ConvertedSurface& surface) { settle(lander, surface, true); }
 
 }  // namespace qmorph::adapter

@@ -10,7 +10,6 @@
 #include <set>
 #include <utility>
 
-#include "gmsh/geometry/cad_surface.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/put_back.hpp"
 #include "gmsh/session/compat.hpp"
@@ -127,14 +126,6 @@ void parametrise(EntityMesh& entity) {
   entity.uv = std::move(uv);
 }
 
-/// Quads of order 2 have 8 nodes if others of the model have, and 9 if nothing speaks against it.
-bool wants_incomplete(const ModelMesh& mesh) {
-  for (const EntityMesh& entity : mesh.entities)
-    if (const ElementBlock* quads = entity.dim == 2 ? entity.polygons(4) : nullptr; quads && quads->order > 1)
-      return quads->nodes_per_element == 4 * static_cast<std::size_t>(quads->order);
-  return get_option("Mesh.SecondOrderIncomplete") != 0;
-}
-
 EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted, TagPool& node_tags,
                        TagPool& element_tags, PartTags& part_tags) {
   const EntityMesh& before = mesh.entities[converted.surface.entity];
@@ -161,8 +152,9 @@ EntityMesh make_entity(const ModelMesh& mesh, const ConvertedSurface& converted,
       if (tag == 0) tag = element_tags.next();
     if (!block->tags.empty()) entity.blocks.push_back(std::move(*block));
   }
+  if (!converted.curved.empty())
+    raise_order(mesh, before, converted.curved, part_tags, entity, [&] { return node_tags.next(); });
   if (std::any_of(entity.uv.begin(), entity.uv.end(), [](double u) { return std::isnan(u); })) entity.uv.clear();
-  if (order_of(before) > 1) raise_order(mesh, before, wants_incomplete(mesh), entity, [&] { return node_tags.next(); });
   if (!before.uv.empty() && entity.uv.size() != 2 * entity.node_tags.size()) parametrise(entity);
   return entity;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "gmsh/model/curved_elements.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/model/patches.hpp"
 #include "qmorph/gmsh.hpp"
@@ -21,6 +22,7 @@ struct ConvertedSurface {
   /// Of each part's nodes those on the surface of a geometry, NaN for what stays from the input; empty: not known.
   std::vector<std::vector<Eigen::Vector2d>> parameters{};
   OnGeometry on_geometry{};
+  std::vector<CurvedElements> curved{};  ///< of each part; empty for linear elements
 };
 
 /// Node tags of the results of one surface's parts.

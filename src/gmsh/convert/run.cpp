@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "gmsh/convert/complaints.hpp"
+#include "gmsh/convert/curve_sides.hpp"
 #include "gmsh/convert/onto_geometry.hpp"
 #include "gmsh/convert/stop_watch.hpp"
 #include "gmsh/model/extrusions.hpp"
@@ -47,8 +49,11 @@ Run::Run(Task task, const Options& options, ModelReport& report, const std::map<
 }
 
 void Run::visit(const std::vector<std::uint32_t>& entities) {
-  if (task_ == Task::convert)
-    for (PeriodicLink& link : find_extrusions(model_.mesh, entities, links_)) links_.push_back(std::move(link));
+  if (task_ != Task::measure) {
+    std::vector<PeriodicLink> extrusions = find_extrusions(model_.mesh, entities, links_);
+    walls_ = find_extruded_walls(model_.mesh, extrusions);
+    std::move(extrusions.begin(), extrusions.end(), std::back_inserter(links_));
+  }
   families_ = find_families(links_);
   std::vector<Job> jobs;
   std::set<int> done;
@@ -80,7 +85,7 @@ Job Run::begin_alone(std::uint32_t entity) {
   StopWatch watch;
   Job job{.entities = {entity}, .reports = {begin_report(model_.mesh, entity)}};
   SurfaceReport& report = job.reports[0];
-  if (task_ == Task::measure || (report.triangles_in == 0 && task_ == Task::convert)) {
+  if (task_ == Task::measure || (report.triangles_in == 0 && (task_ == Task::convert || walls_.count(report.tag)))) {
     look_at(entity, report);
     job.is_left_alone = true;
   } else {
@@ -182,11 +187,6 @@ void Run::check(const ConvertedSurface& converted, double beside) const {
     if (const std::optional<Defect> defect = find_defect(part.patch, converted.results[p], quads_are, beside))
       throw SurfaceError("the result is not valid: " + defect->what + "; this is a mistake of qmorph",
                          {.kind = ErrorKind::no_valid_mesh, .place = defect->place});
-    const std::string where =
-        find_bent_corner(model_.mesh, model_.mesh.entities[converted.surface.entity], part, converted.results[p]);
-    if (!where.empty())
-      throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there",
-                         {.kind = ErrorKind::no_valid_mesh});
   }
 }
 
@@ -195,9 +195,10 @@ void Run::check(const ConvertedSurface& converted, double beside) const {
 void Run::settle(ConvertedSurface& converted) {
   StopWatch watch;
   check(converted, kOnTriangles);
-  if (const auto geometry = CadSurface::find(model_.mesh, converted.surface.entity)) {
+  const Lander lander = find_lander(model_.mesh, converted.surface.entity);
+  if (lander) {
     const std::vector<QuadMesh> on_triangles = converted.results;
-    put_onto(*geometry, converted);
+    put_onto(lander, converted);
     try {
       check(converted, kOnGeometry);
     } catch (const SurfaceError&) {
@@ -205,6 +206,7 @@ void Run::settle(ConvertedSurface& converted) {
       converted.on_geometry = {0, converted.on_geometry.all()};
     }
   }
+  curve_sides(model_.mesh, lander, converted);
   report_.check_seconds += watch.lap();
 }
 
@@ -212,9 +214,10 @@ void Run::settle(ConvertedSurface& converted) {
 /// \throws SurfaceError
 void Run::settle_image(ConvertedSurface& converted) {
   StopWatch watch;
-  const auto geometry = CadSurface::find(model_.mesh, converted.surface.entity);
-  check(converted, geometry ? kOnGeometry : kOnTriangles);
-  if (geometry) find_parameters(*geometry, converted);
+  const Lander lander = find_lander(model_.mesh, converted.surface.entity);
+  check(converted, lander ? kOnGeometry : kOnTriangles);
+  if (lander) find_parameters(lander, converted);
+  curve_sides(model_.mesh, lander, converted);
   report_.check_seconds += watch.lap();
 }
 
@@ -250,7 +253,8 @@ void Run::look_at(std::uint32_t entity, SurfaceReport& report) {
 
 /// That no figure tells.
 void Run::find_faults(const SurfaceMesh& surface, SurfaceReport& report) const {
-  const std::string where = find_bent_corner(model_.mesh, model_.mesh.entities[surface.entity]);
+  const EntityMesh& mesh = model_.mesh.entities[surface.entity];
+  const std::string where = order_of(mesh) > 1 ? find_bent(read_curved_elements(model_.mesh, mesh)) : "";
   if (!where.empty()) report.reason = "a curved edge turns an element over " + where;
   if (!surface.edge_of_many.empty())
     report.reason = "it is not a manifold: more than two elements share an edge, " + surface.edge_of_many;

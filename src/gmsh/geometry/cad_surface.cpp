@@ -151,7 +151,7 @@ void CadSurface::search(std::span<const OnInput> points, std::vector<std::size_t
   const std::vector<Vector3d> there = surface_points(tag_, places);
   for (std::size_t k = 0; k < arrived.size(); ++k) {
     const std::size_t i = arrived[k];
-    landings[i].found = (there[k] - points[i].point).norm() <= kFarthest * edge(points[i]);
+    landings[i].found = (there[k] - points[i].point).norm() <= kFarthest * std::max(edge(points[i]), points[i].chord);
     if (landings[i].found) landings[i].point = there[k];
   }
 }

@@ -2,32 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "gmsh/geometry/landing.hpp"
 #include "gmsh/geometry/node_parameters.hpp"
 
 namespace qmorph::adapter {
-
-/// A point of a triangle of the input.
-struct OnInput {
-  Eigen::Vector3d point, weights;
-  std::array<Index, 3> corners;  ///< rows of the model's nodes
-};
-
-/// No parameters are known.
-inline const Eigen::Vector2d kNoParameters = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-
-/// The point of the surface for it.
-struct Landing {
-  Eigen::Vector3d point;
-  Eigen::Vector2d parameters = kNoParameters;
-  bool found = false;  ///< `parameters` are a guess if not, or none, and `point` is the input's
-};
 
 /// A surface of a geometry. Points of its mesh's triangles are brought onto it by Newton steps from the parameters that
 /// their corners have: Gmsh's own search takes a thousand times as long on B-splines.

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -15,6 +16,9 @@
 #include "qmorph/patch.hpp"
 
 namespace qmorph::adapter {
+
+/// Of a node on a surface, where none are known.
+inline const Eigen::Vector2d kNoParameters = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 
 /// The elements of one type of one entity.
 struct ElementBlock {

@@ -28,6 +28,7 @@ std::vector<PhysicalGroup> read_physical_groups() {
 void add_to_group(int dim, int group, const std::vector<int>& entities, const std::string& name) {
   std::vector<int> all;
   std::string kept;
+  ::gmsh::model::getPhysicalName(dim, group, kept);  // which goes with the group
   ::gmsh::vectorpair known;
   ::gmsh::model::getPhysicalGroups(known, dim);
   if (std::count(known.begin(), known.end(), std::pair(dim, group))) {
@@ -35,7 +36,6 @@ void add_to_group(int dim, int group, const std::vector<int>& entities, const st
     // It complains that the built-in kernel does not have the group, and removes it.
     run_logged([&] { ::gmsh::model::removePhysicalGroups({{dim, group}}); });
   }
-  ::gmsh::model::getPhysicalName(dim, group, kept);
   all.insert(all.end(), entities.begin(), entities.end());
   sort_unique(all);
   ::gmsh::model::addPhysicalGroup(dim, all, group);

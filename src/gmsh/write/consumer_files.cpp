@@ -11,6 +11,7 @@
 #include <set>
 #include <string_view>
 
+#include "geometry/describe.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/element_types.hpp"
 #include "gmsh/write/consumers.hpp"
@@ -112,6 +113,18 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
   save(path, text);
 }
 
+std::string choose_family(const std::string& asked, ConsumerMesh& mesh) {
+  const std::optional<Eigen::Vector3d> off = find_off_plane(mesh, 0);
+  if (!off)
+    for (Eigen::Vector3d& p : mesh.nodes) p.z() = 0;  // a reader may take z = 1e-17 for another place
+  const bool in_space = off && dimension(mesh) == 2;
+  if (in_space && asked.rfind('C', 0) == 0)
+    mesh.complaints.push_back(
+        fmt::format("elements {} lie in the plane z = 0, and this mesh has a node at {}; --elements S makes shells",
+                    asked, describe(*off)));
+  return !asked.empty() ? asked : in_space ? "S" : "CPS";
+}
+
 bool is_element_family(const std::string& family) {
   return std::any_of(kFamilies.begin(), kFamilies.end(),
                      [&](std::string_view known) { return family == known || family == std::string(known) + "R"; });
@@ -120,8 +133,7 @@ bool is_element_family(const std::string& family) {
 void write_su2_for(const ConsumerMesh& mesh, const std::string& path) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  int dim = 0;
-  for (const ConsumerElement& element : mesh.elements) dim = std::max(dim, element.dim);
+  const int dim = dimension(mesh);
   const auto line = [&](const ConsumerElement& element) {
     std::string words = std::to_string(vtk_type(element_type(element.type)));
     for (std::size_t node : element.nodes) words += ' ' + std::to_string(node - 1);
@@ -157,8 +169,7 @@ void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const st
     // CalculiX takes 20 characters for a number and not one more.
     fmt::format_to(out, "{}, {:.13g}, {:.13g}, {:.13g}\n", i + 1, mesh.nodes[i].x(), mesh.nodes[i].y(),
                    mesh.nodes[i].z());
-  int dim = 0;
-  for (const ConsumerElement& element : mesh.elements) dim = std::max(dim, element.dim);
+  const int dim = dimension(mesh);
 
   std::map<std::pair<int, int>, std::set<std::size_t>> nodes, elements;  // by dimension and group
   std::map<std::pair<int, int>, std::vector<std::size_t>> blocks;        // elements by entity and type

@@ -7,12 +7,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_set>
 #include <utility>
 
-#include "gmsh/model/high_order.hpp"
+#include "geometry/describe.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/session/compat.hpp"
@@ -46,6 +47,7 @@ constexpr std::array kConsumers = {
              .format = "su2",
              .inner_lines = false,
              .needs_curve_groups = true,
+             .planar = true,
              .oriented = true},
     Consumer{.name = "calculix",
              .title = "CalculiX",
@@ -71,6 +73,7 @@ constexpr std::array kConsumers = {
              .points = false,
              .specfem_names = true,
              .needs_surface_groups = true,
+             .planar = true,
              .oriented = true},
 };
 
@@ -110,6 +113,7 @@ class Collector {
   void add_links();
   void complain_of_elements();
   void complain_of_names();
+  void complain_of_height();
   bool is_inner_line(const ElementBlock& block, std::size_t i) const;
   std::size_t number(std::size_t tag);
   Eigen::Vector3d point(std::size_t tag) const { return mesh_.points[mesh_.rows.find(tag)]; }
@@ -230,6 +234,14 @@ void Collector::complain_of_elements() {
     say("some surfaces are in a physical group and some are not: a non-positive element attribute for MFEM");
 }
 
+void Collector::complain_of_height() {
+  const double z = result_.nodes.empty() ? 0 : result_.nodes.front().z();
+  if (const std::optional<Eigen::Vector3d> off = find_off_plane(result_, z))
+    result_.complaints.push_back(
+        fmt::format("{} takes surfaces in a plane z = constant alone, and this mesh has nodes at {} and at {}",
+                    consumer_.title, describe(result_.nodes.front()), describe(*off)));
+}
+
 /// Only nodes that the reader gets.
 void Collector::add_links() {
   for (const int dim : {0, 1, 2})
@@ -248,10 +260,27 @@ ConsumerMesh Collector::collect() {
   for (const EntityMesh& entity : mesh_.entities) add_entity(entity);
   if (consumer_.periodic) add_links();
   complain_of_elements();
+  if (consumer_.planar && dimension(result_) == 2) complain_of_height();
   return std::move(result_);
 }
 
 }  // namespace
+
+int dimension(const ConsumerMesh& mesh) {
+  int dim = 0;
+  for (const ConsumerElement& element : mesh.elements) dim = std::max(dim, element.dim);
+  return dim;
+}
+
+std::optional<Eigen::Vector3d> find_off_plane(const ConsumerMesh& mesh, double z) {
+  constexpr double kInPlane = 1e-9;  // of the mesh's extent
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.nodes) box.extend(p);
+  const auto off = std::find_if(mesh.nodes.begin(), mesh.nodes.end(), [&](const Eigen::Vector3d& p) {
+    return std::abs(p.z() - z) > kInPlane * box.diagonal().norm();
+  });
+  return off == mesh.nodes.end() ? std::nullopt : std::optional(*off);
+}
 
 const Consumer& find_consumer(const std::string& name) {
   std::string names;

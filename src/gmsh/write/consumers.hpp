@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,7 @@ struct Consumer {
   bool specfem_names = false;     ///< curves Top, Bottom, Left and Right; surfaces M1, M2, ...
   bool needs_surface_groups = false;
   bool needs_curve_groups = false;
+  bool planar = false;    ///< knows no z: surfaces alone lie in one plane z = constant
   bool oriented = false;  ///< neighbours must agree, and planar meshes be counterclockwise: `orient_surfaces` first
   bool periodic = false;  ///< knows which nodes are images of others
 };
@@ -53,6 +55,12 @@ struct ConsumerMesh {
 /// \param everything also what is in no physical group although there are groups
 ConsumerMesh collect_for(const Consumer& consumer, bool everything);
 
+/// The largest one of an element.
+int dimension(const ConsumerMesh& mesh);
+
+/// The first node that is not at this height, by more than rounding.
+std::optional<Eigen::Vector3d> find_off_plane(const ConsumerMesh& mesh, double z);
+
 /// Writes MSH 2.2 in ASCII. \throws OutputError
 void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const std::string& path);
 
@@ -63,6 +71,11 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
 ///        integration
 /// \throws OutputError
 void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const std::string& path);
+
+/// The family that a deck's surface elements are of: what is asked for, if anything, or CPS in the plane z = 0 and S
+/// elsewhere, where CalculiX stops at the others. Complains of a mesh that is not where it has to be; puts what rounding has
+/// left beside that plane into it.
+std::string choose_family(const std::string& asked, ConsumerMesh& mesh);
 
 /// Whether a deck can have such elements.
 bool is_element_family(const std::string& family);

@@ -192,6 +192,34 @@ void call_by_its_name(const std::string& written, const std::string& target) {
   file << name;
 }
 
+/// Whether surface elements have nodes at a height other than 0.
+bool are_surfaces_in_space() {
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, parameters;
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  for (const auto& [dim, tag] : surfaces) {
+    ::gmsh::model::mesh::getNodes(tags, xyz, parameters, dim, tag, true, false);
+    for (std::size_t i = 2; i < xyz.size(); i += 3)
+      if (xyz[i] != 0) return true;
+  }
+  return false;
+}
+
+/// Gmsh calls all elements of surfaces plane-stress ones, which solvers want in the plane z = 0.
+void name_shells(const std::string& written) {
+  const std::string of_gmsh = "*ELEMENT, type=CPS", shell = "*ELEMENT, type=S";
+  std::ifstream in(written, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  in.close();
+  std::string named;
+  std::size_t done = 0;
+  for (std::size_t at = 0; (at = text.find(of_gmsh, done)) != std::string::npos; done = at + of_gmsh.size())
+    named.append(text, done, at - done).append(shell);
+  named.append(text, done);
+  std::ofstream(written, std::ios::binary) << named;
+}
+
 /// Gmsh has the keyword of linear quads for those of order 2, too, and its own readers then read half of each.
 void name_quads_of_order_2(const std::string& written) {
   const std::string linear = "\n Quadrilaterals\n", quadratic = "\n QuadrilateralsQ2\n";
@@ -216,6 +244,7 @@ void write_other(const OutputPlan& plan, const std::string& path) {
   }
   call_by_its_name(path, plan.path);
   if (second_order && plan.format.name == "mesh") name_quads_of_order_2(path);
+  if (plan.format.name == "inp" && are_surfaces_in_space()) name_shells(path);
 }
 
 bool has_elements_of(int type, int dim) {

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gmsh/model/curved_elements.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "gmsh/session/compat.hpp"
+#include "kernel/sort_unique.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+using Eigen::Vector2d, Eigen::Vector3d;
+
+/// Sine of the angle between an element's two directions at a node: with less it is flat there, as in check.cpp.
+constexpr double kLeastSine = 1e-10;
+
+/// A point of the line through points at equal steps, between its neighbours.
+Vector3d along_line(const std::vector<Vector3d>& line, double t) {
+  const double at = t * static_cast<double>(line.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at + 1e-9), line.size() - 2);
+  const double s = at - static_cast<double>(i);
+  return (1 - s) * line[i] + s * line[i + 1];
+}
+
+/// Coons' blend of the four sides; u, v from -1 to 1. Sides run from corner k to corner k + 1.
+Vector3d inside_quad(const std::vector<std::vector<Vector3d>>& sides, double u, double v) {
+  const double s = (u + 1) / 2, t = (v + 1) / 2;
+  const Vector3d across = (1 - t) * along_line(sides[0], s) + t * along_line(sides[2], 1 - s);
+  const Vector3d up = s * along_line(sides[1], t) + (1 - s) * along_line(sides[3], 1 - t);
+  const Vector3d flat = (1 - s) * (1 - t) * sides[0].front() + s * (1 - t) * sides[1].front() +
+                        s * t * sides[2].front() + (1 - s) * t * sides[3].front();
+  return across + up - flat;
+}
+
+/// The flat triangle, moved by what its sides are away from straight, less the further from the side.
+Vector3d inside_triangle(const std::vector<std::vector<Vector3d>>& sides, double u, double v) {
+  const double weight[3] = {1 - u - v, u, v};
+  Vector3d p = Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) p += weight[k] * sides[k].front();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double a = weight[k], b = weight[(k + 1) % 3], t = b / (a + b);
+    p += (a + b) * (a + b) * (along_line(sides[k], t) - (1 - t) * sides[k].front() - t * sides[k].back());
+  }
+  return p;
+}
+
+/// Derivatives of the functions of an element type at points of the reference element.
+std::vector<Vector2d> slopes_at(int type, const std::vector<double>& local) {
+  std::vector<double> uvw, values;
+  for (std::size_t i = 0; i < local.size(); i += 2) uvw.insert(uvw.end(), {local[i], local[i + 1], 0});
+  int components = 0, orientations = 0;
+  ::gmsh::model::mesh::getBasisFunctions(type, uvw, "GradLagrange", components, values, orientations);
+  std::vector<Vector2d> slopes;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3) slopes.emplace_back(values[i], values[i + 1]);
+  return slopes;
+}
+
+}  // namespace
+
+void CurvedElements::set_type(const ElementType& type) {
+  Shape& shape = shapes_[type.corners - 3];
+  shape.type = type;
+  shape.slopes = slopes_at(type.type, type.local);
+  shape.linear_slopes = slopes_at(type_number(type.corners, 1, false), type.local);
+}
+
+Index CurvedElements::add_side(Index a, Index b) {
+  const auto [found, is_new] = side_of_.try_emplace({std::min(a, b), std::max(a, b)}, sides());
+  if (!is_new) return found->second;
+  CurvedSide& side = sides_.emplace_back();
+  side.ends = {a, b};
+  const int order = std::max(shapes_[0].type.order, shapes_[1].type.order);
+  side.nodes.resize(static_cast<std::size_t>(order) - 1);
+  straighten(side);
+  return found->second;
+}
+
+void CurvedElements::straighten(CurvedSide& side) const {
+  const Vector3d &p = points_[side.ends[0]], &q = points_[side.ends[1]];
+  const auto steps = static_cast<double>(side.nodes.size() + 1);
+  for (std::size_t i = 0; i < side.nodes.size(); ++i) {
+    side.nodes[i].place = p + (q - p) * (static_cast<double>(i + 1) / steps);
+    side.nodes[i].parameters = kNoParameters;
+    side.nodes[i].is_landed = false;
+  }
+}
+
+Index CurvedElements::add(std::vector<Index> corners) {
+  const ElementType& type = shape(corners.size()).type;
+  CurvedElement element;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    element.sides.push_back(add_side(corners[k], corners[(k + 1) % corners.size()]));
+  element.inside.resize(type.nodes - corners.size() * static_cast<std::size_t>(type.order));
+  element.corners = std::move(corners);
+  elements_.push_back(std::move(element));
+  fill(elements() - 1);
+  return elements() - 1;
+}
+
+std::vector<MiddleNode> CurvedElements::along(Index e, std::size_t k) const {
+  const CurvedSide& side = sides_[elements_[e].sides[k]];
+  std::vector<MiddleNode> nodes = side.nodes;
+  if (side.ends[0] != elements_[e].corners[k]) std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+void CurvedElements::fill(Index e) {
+  CurvedElement& element = elements_[e];
+  if (element.inside.empty()) return;
+  const std::size_t n = element.corners.size();
+  std::vector<std::vector<Vector3d>> lines(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    lines[k].push_back(points_[element.corners[k]]);
+    for (const MiddleNode& node : along(e, k)) lines[k].push_back(node.place);
+    lines[k].push_back(points_[element.corners[(k + 1) % n]]);
+  }
+  const ElementType& type = shape(n).type;
+  for (std::size_t i = 0; i < element.inside.size(); ++i) {
+    const std::size_t node = type.nodes - element.inside.size() + i;
+    const double u = type.local[2 * node], v = type.local[2 * node + 1];
+    element.inside[i].place = n == 4 ? inside_quad(lines, u, v) : inside_triangle(lines, u, v);
+    element.inside[i].parameters = kNoParameters;
+    element.inside[i].is_landed = false;
+  }
+}
+
+std::vector<Vector3d> CurvedElements::places(Index e) const {
+  const CurvedElement& element = elements_[e];
+  std::vector<Vector3d> places;
+  for (const Index corner : element.corners) places.push_back(points_[corner]);
+  for (std::size_t k = 0; k < element.sides.size(); ++k)
+    for (const MiddleNode& node : along(e, k)) places.push_back(node.place);
+  for (const MiddleNode& node : element.inside) places.push_back(node.place);
+  return places;
+}
+
+bool CurvedElements::is_folded(Index e) const {
+  const std::size_t corners = elements_[e].corners.size();
+  const Shape& form = shape(corners);
+  const std::vector<Vector3d> at = places(e);
+  const auto tangents = [&](const std::vector<Vector2d>& slopes, std::size_t node, std::size_t functions) {
+    Eigen::Matrix<double, 3, 2> sum = Eigen::Matrix<double, 3, 2>::Zero();
+    for (std::size_t i = 0; i < functions; ++i) sum += at[i] * slopes[node * functions + i].transpose();
+    return sum;
+  };
+  for (std::size_t node = 0; node < at.size(); ++node) {
+    const auto here = tangents(form.slopes, node, at.size()), straight = tangents(form.linear_slopes, node, corners);
+    const Vector3d up = straight.col(0).cross(straight.col(1));
+    if (!(here.col(0).cross(here.col(1)).dot(up) > kLeastSine * here.col(0).norm() * here.col(1).norm() * up.norm()))
+      return true;
+  }
+  return false;
+}
+
+Index CurvedElements::find_folded() const {
+  for (Index e = 0; e < elements(); ++e)
+    if (!elements_[e].is_kept && is_folded(e)) return e;
+  return kNone;
+}
+
+std::size_t CurvedElements::unfold() {
+  std::vector<std::vector<Index>> around(sides_.size());
+  for (Index e = 0; e < elements(); ++e)
+    for (const Index s : elements_[e].sides) around[s].push_back(e);
+  std::size_t straightened = 0;
+  std::vector<Index> open;
+  for (Index e = 0; e < elements(); ++e) open.push_back(e);
+  while (!open.empty()) {
+    std::vector<Index> changed;  // a side that is straight now may fold the neighbour
+    for (const Index e : open) {
+      if (elements_[e].is_kept || !is_folded(e)) continue;
+      for (const Index s : elements_[e].sides) {
+        CurvedSide& side = sides_[s];
+        if (side.is_given || side.is_straight) continue;
+        straighten(side);
+        side.is_straight = true;
+        ++straightened;
+        changed.insert(changed.end(), around[s].begin(), around[s].end());
+      }
+      fill(e);
+    }
+    sort_unique(changed);
+    for (const Index e : changed)
+      if (!elements_[e].is_kept) fill(e);
+    open = std::move(changed);
+  }
+  return straightened;
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gmsh/model/model_mesh.hpp"
+#include "gmsh/session/element_types.hpp"
+#include "qmorph/index.hpp"
+
+namespace qmorph::adapter {
+
+/// A node that is no corner.
+struct MiddleNode {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Vector2d parameters = kNoParameters;
+  std::size_t tag = 0;     ///< 0: it has none yet
+  bool is_landed = false;  ///< on what the elements stand for
+};
+
+/// A side of one element or two, and what is on it from the first end to the second.
+struct CurvedSide {
+  std::array<Index, 2> ends;
+  std::vector<MiddleNode> nodes;
+  bool is_given = false;     ///< stays as it is
+  bool is_straight = false;  ///< has been made so
+};
+
+struct CurvedElement {
+  std::vector<Index> corners;
+  std::vector<Index> sides;  ///< from each corner to the next
+  std::vector<MiddleNode> inside;
+  bool is_kept = false;  ///< stays as it is, whatever it is
+};
+
+/// Elements of one order that share curved sides.
+class CurvedElements {
+ public:
+  CurvedElements() = default;
+  explicit CurvedElements(std::vector<Eigen::Vector3d> points) : points_(std::move(points)) {}
+  /// What elements with so many corners are. \pre called for all before any is added
+  void set_type(const ElementType& type);
+  const ElementType& type(std::size_t corners) const { return shape(corners).type; }
+
+  /// With straight sides where there are none yet. Nodes inside follow from the sides.
+  Index add(std::vector<Index> corners);
+  Index add_side(Index a, Index b);
+  /// Puts the nodes inside between the sides, at equal steps.
+  void fill(Index element);
+
+  std::span<const Eigen::Vector3d> points() const { return points_; }
+  Index sides() const { return Index(sides_.size()); }
+  CurvedSide& side(Index s) { return sides_[s]; }
+  const CurvedSide& side(Index s) const { return sides_[s]; }
+  Index elements() const { return Index(elements_.size()); }
+  CurvedElement& element(Index e) { return elements_[e]; }
+  const CurvedElement& element(Index e) const { return elements_[e]; }
+  /// The nodes of a side of an element, in its direction.
+  std::vector<MiddleNode> along(Index element, std::size_t k) const;
+
+  /// At a node of it the element is turned over, or flat, compared with one that has straight sides.
+  bool is_folded(Index element) const;
+  /// Straightens sides of folded elements, unless they are given, until none is folded or there is no such side.
+  /// \return how many
+  std::size_t unfold();
+  /// The first folded element that is not kept, or kNone.
+  Index find_folded() const;
+
+ private:
+  /// An element of reference: derivatives of its functions at its nodes, and those of the corners' linear ones.
+  struct Shape {
+    ElementType type;
+    std::vector<Eigen::Vector2d> slopes, linear_slopes;  ///< by node, then function
+  };
+  const Shape& shape(std::size_t corners) const { return shapes_[corners - 3]; }
+  void straighten(CurvedSide& side) const;
+  std::vector<Eigen::Vector3d> places(Index element) const;
+
+  std::vector<Eigen::Vector3d> points_;
+  std::array<Shape, 2> shapes_;  ///< triangles, quads
+  std::vector<CurvedSide> sides_;
+  std::map<std::array<Index, 2>, Index> side_of_;  ///< by ends, the smaller first
+  std::vector<CurvedElement> elements_;
+};
+
+}  // namespace qmorph::adapter
