@@ -93,6 +93,20 @@ TEST_CASE("volumes: extruded in layers without Recombine, the message says what 
   CHECK(directory.files() == std::vector<std::string>{"err", "in.geo"});
 }
 
+TEST_CASE("volumes: where quads are improved, extruded volumes get their hexahedra all the same") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "SetFactory(\"OpenCASCADE\");\nDisk(1) = {3, 0, 0, 1};\nMesh.MeshSizeMax = 0.3;\n"
+             "Extrude{{0.1, 1, 0.2}, {0, 0, 0}, 1.1}{ Surface{1}; Layers{4}; Recombine; }\n");
+  for (const char* how : {"", "--cleanup-only"}) {
+    CAPTURE(how);
+    CHECK(std::system(fmt::format("'{}' -v 0 -3 {} '{}'", QMORPH_COMMAND, how, directory / "in.geo").c_str()) == 0);
+    const auto counts = count_types(read_snapshot(directory / "in.msh"));
+    CHECK(counts.at(kHexahedron) > 0);
+    for (const int other : {kTriangle, kTetrahedron, kPyramid}) CHECK(counts.count(other) == 0);
+  }
+}
+
 TEST_CASE("volumes: -3 names a surface without elements") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kBox);

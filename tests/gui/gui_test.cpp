@@ -416,6 +416,10 @@ TEST_CASE("window: what the user changes in a mesh is not undone") {
 
 TEST_CASE("window: begun with nothing, a drawing becomes quads") {
   Window window({});
+  std::string script;
+  gmsh::model::getFileName(script);  // Gmsh's menus append to it
+  CHECK(std::filesystem::path(script).filename() == "untitled.geo");
+  CHECK(!std::filesystem::exists(script));
   for (const auto& [x, y] : {std::pair(0., 0.), {1., 0.}, {1., 1.}, {0., 1.}}) gmsh::model::geo::addPoint(x, y, 0, 0.1);
   for (int i : {1, 2, 3, 4}) gmsh::model::geo::addLine(i, i % 4 + 1, i);
   gmsh::model::geo::addCurveLoop({1, 2, 3, 4}, 1);

@@ -28,6 +28,14 @@ adapter::OpenedModel opened_by_gmsh(const std::string& file) {
   return opened;
 }
 
+/// A name for a drawing that no file here has.
+std::string unused_script() {
+  std::string name = "untitled.geo";
+  std::error_code error;
+  for (int i = 2; std::filesystem::exists(name, error); ++i) name = fmt::format("untitled-{}.geo", i);
+  return (std::filesystem::current_path(error) / name).string();
+}
+
 /// Whether writing makes the model another one.
 bool changes_the_model(const Request& request) {
   return request.dimension == 3 || request.order_chosen || request.partitions > 0 || request.orient ||
@@ -42,6 +50,8 @@ void Document::open() {
   if (!request.input.empty()) {
     opened_ = open_as_it_is(call_);
     if (request.drop_volumes) adapter::drop_volumes();
+  } else {
+    adapter::begin_drawing(unused_script());
   }
   note_state();
   model_ = state_.model, file_ = state_.file;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cli/files/scene.hpp"
-#include "cli/gui/compare.hpp"
 #include "cli/gui/front_view.hpp"
 #include "cli/gui/progress.hpp"
 #include "cli/gui/result_view.hpp"
@@ -18,10 +17,7 @@
 #include "cli/work/open_input.hpp"
 #include "gmsh/window/second_model.hpp"
 #include "gmsh/window/window.hpp"
-#include "gmsh/write/staged_file.hpp"
 #include "qmorph/error.hpp"
-#include "report/page.hpp"
-#include "report/recorder.hpp"
 #include "report/summary.hpp"
 
 namespace qmorph::cli {
@@ -34,12 +30,6 @@ std::vector<int> surfaces_left(const ModelReport& model) {
   for (const SurfaceReport& surface : model.surfaces)
     if (surface.outcome == SurfaceOutcome::left) left.push_back(surface.tag);
   return left;
-}
-
-void write_text(const std::string& path, const std::string& text, const Call& call) {
-  adapter::StagedFile file(path, std::string(), call.names());
-  file.write_text(text);
-  file.commit();
 }
 
 /// While the library works, the button stops it.
@@ -137,11 +127,10 @@ void Gui::choices_changed() {
 }
 
 /// \return false if there was nothing to convert
-bool Gui::convert(Observer* observer) {
+bool Gui::convert(const std::function<Observer*()>& watch) {
   choices_ = read_choices();
   const Request request = read_request(call_.request);
-  Options options = engine_options(request);
-  options.observer = observer;
+  const Options options = engine_options(request);
   player_.reset();
   views_.clear();
   adapter::remove_second_model();
@@ -150,6 +139,7 @@ bool Gui::convert(Observer* observer) {
   const Converted* converted = nullptr;
   try {
     converted = &document_.convert(request, choices_.size_factor, options, [&](Options& now) {
+      if (watch) now.observer = watch();
       now.progress = std::ref(progress.emplace(window_));  // the model is what is converted now
     });
   } catch (const Cancelled&) {
@@ -190,16 +180,6 @@ void Gui::show() {
     show_result(read_scene(), choices_.colour, choices_.irregular, surfaces_left(converted->model), views_);
 }
 
-void Gui::leave_front() {
-  if (!player_) return;
-  adapter::show_surface(player_->surface(), true);
-  adapter::show_curves(true);
-  adapter::set_parameter(parameter::kStepDone, std::string());
-  adapter::set_parameter(parameter::kStepWords, std::string());
-  views_.clear();
-  player_.reset();
-}
-
 void Gui::back() {
   leave_front();
   views_.clear();
@@ -215,102 +195,6 @@ void Gui::pick() {
   std::string words;
   for (int tag : tags) words += fmt::format("{}{}", words.empty() ? "" : ", ", tag);
   adapter::set_parameter(parameter::kSurfaces, words.empty() ? "all" : words);
-}
-
-/// Converts with an eye on one surface, and goes back to its triangles. \return false if it has no front
-bool Gui::record() {
-  choices_ = read_choices();
-  const Request request = read_request(call_.request);
-  if (request.cleanup_only) throw UsageError("Clean up only: there is no front then");
-  // What the surfaces are is known once there is a mesh.
-  std::optional<FrontWatcher> watcher;
-  const auto choose = [&](int wanted) { watcher.emplace(wanted); };
-  if (choices_.step_surface == 0) {
-    if (!document_.converted() || document_.shows_triangles()) {
-      if (!convert()) return false;
-    }
-    for (const SurfaceReport& surface : document_.converted()->model.surfaces)
-      if (surface.outcome == SurfaceOutcome::converted && !watcher) choose(surface.tag);
-    if (!watcher) throw InputError("no surface has become quads: there is no front to watch");
-  } else {
-    choose(choices_.step_surface);
-  }
-  const int surface = watcher->surface();
-  if (!convert(&*watcher)) return false;
-  std::vector<std::unique_ptr<FrontLog>> logs = watcher->take();
-  if (logs.empty())
-    throw InputError(fmt::format("surface {} has no front: it is not there, or nothing of it was converted", surface));
-  document_.back_to_triangles();
-  player_.emplace(surface, std::move(logs));
-  return true;
-}
-
-void Gui::step(const std::string& name) {
-  const Choices now = read_choices();
-  if (player_ && now.step_surface != 0 && now.step_surface != player_->surface()) leave_front();
-  if (!player_ && !record()) return;
-  choices_ = now;
-  const std::size_t n = static_cast<std::size_t>(std::max(1, now.steps)), at = player_->position();
-  const bool row = now.steps == kWholeRow;
-  std::size_t to = 0;
-  if (name == action::kForward) to = row ? player_->row_end() : at + n;
-  if (name == action::kBackward) to = row ? player_->row_begin() : at - std::min(at, n);
-  if (name == action::kToEnd) to = player_->count();
-  player_->go_to(to);
-  const bool end = player_->position() == player_->count();
-  if (end != !document_.shows_triangles()) end ? document_.forward_to_quads() : document_.back_to_triangles();
-  if (end) adapter::show_surface(player_->surface(), true), adapter::show_curves(true);
-  adapter::set_parameter(parameter::kStepDone, fmt::format("{} of {}", player_->position(), player_->count()));
-  adapter::set_parameter(parameter::kStepWords, player_->words());
-  show();
-  window_.status(player_->words());
-}
-
-void Gui::save() {
-  const Request request = read_request(call_.request);
-  if (player_ && document_.shows_triangles())
-    say("the front has not come to its end: what is written has triangles", Severity::warning);
-  for (const std::string& line : document_.save(request)) say(line);
-}
-
-report::RunFacts Gui::facts(const Request& request, const std::string& output) const {
-  report::RunFacts facts{request.input, output, call_.arguments, all_converted, document_.converted()->even};
-  if (document_.converted()->model.count(SurfaceOutcome::left)) facts.exit_status = converted_in_part;
-  facts.total_seconds = document_.converted()->seconds;
-  return facts;
-}
-
-void Gui::write_report() {
-  const std::string path = adapter::text_parameter(parameter::kReportFile);
-  adapter::check_place(path);
-  report::Recorder recorder({.figures = true});
-  if (!convert(&recorder)) return;
-  document_.back_to_triangles();
-  const report::Scene before = read_scene();
-  document_.forward_to_quads();
-  const ModelReport& model = document_.converted()->model;
-  const Request request = read_request(call_.request);
-  write_text(path, report::report_page(before, read_scene(), model, recorder, facts(request, request.output)), call_);
-  say(path + " is written");
-}
-
-void Gui::write_film() {
-  const std::string path = adapter::text_parameter(parameter::kFilmFile);
-  const Request request = read_request(call_.request);
-  if (request.cleanup_only) throw UsageError("Clean up only: there is no front then");
-  adapter::check_place(path);
-  report::Recorder recorder({.films = true});
-  if (!convert(&recorder)) return;
-  const ModelReport& model = document_.converted()->model;
-  write_text(path, report::film_page(model, recorder, facts(request, request.output)), call_);
-  say(path + " is written");
-}
-
-void Gui::compare() {
-  if (!document_.converted() || document_.shows_triangles())
-    if (!convert()) return;
-  show();
-  say(compare_with_gmsh(document_.triangles(), choices_.colour, choices_.irregular, views_));
 }
 
 void Gui::say(const std::string& text, Severity severity) {

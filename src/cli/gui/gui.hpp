@@ -2,6 +2,7 @@
 #pragma once
 /// --gui: Gmsh's window with a panel of ours.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -40,7 +41,8 @@ class Gui {
   void do_action(const std::string& action);
   void choices_changed();
 
-  bool convert(Observer* observer = nullptr);
+  /// \param watch who watches, asked once there is a mesh; may be empty
+  bool convert(const std::function<Observer*()>& watch = {});
   void back();
   void pick();
   void step(const std::string& action);

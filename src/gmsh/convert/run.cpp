@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -48,8 +49,11 @@ Run::Run(Task task, const Options& options, ModelReport& report, const std::map<
 }
 
 void Run::visit(const std::vector<std::uint32_t>& entities) {
-  if (task_ == Task::convert)
-    for (PeriodicLink& link : find_extrusions(model_.mesh, entities, links_)) links_.push_back(std::move(link));
+  if (task_ != Task::measure) {
+    std::vector<PeriodicLink> extrusions = find_extrusions(model_.mesh, entities, links_);
+    walls_ = find_extruded_walls(model_.mesh, extrusions);
+    std::move(extrusions.begin(), extrusions.end(), std::back_inserter(links_));
+  }
   families_ = find_families(links_);
   std::vector<Job> jobs;
   std::set<int> done;
@@ -81,7 +85,7 @@ Job Run::begin_alone(std::uint32_t entity) {
   StopWatch watch;
   Job job{.entities = {entity}, .reports = {begin_report(model_.mesh, entity)}};
   SurfaceReport& report = job.reports[0];
-  if (task_ == Task::measure || (report.triangles_in == 0 && task_ == Task::convert)) {
+  if (task_ == Task::measure || (report.triangles_in == 0 && (task_ == Task::convert || walls_.count(report.tag)))) {
     look_at(entity, report);
     job.is_left_alone = true;
   } else {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "gmsh/convert/classified.hpp"
@@ -50,6 +51,7 @@ class Run {
   FixedEdges fixed_edges_;
   std::vector<PeriodicLink> links_;
   std::vector<PeriodicFamily> families_;
+  std::set<int> walls_;  ///< between ends of extruded volumes: they have the volumes' nodes
   std::map<std::uint32_t, CommonElement> common_;
   std::vector<Index> local_;
   std::vector<ConvertedSurface> converted_;

@@ -138,4 +138,21 @@ std::vector<PeriodicLink> find_extrusions(const ModelMesh& mesh, const std::vect
   return links;
 }
 
+std::set<int> find_extruded_walls(const ModelMesh& mesh, const std::vector<PeriodicLink>& extrusions) {
+  std::set<int> walls;
+  for (const EntityMesh& volume : mesh.entities) {
+    if (volume.dim != 3) continue;
+    ::gmsh::vectorpair skin;
+    ::gmsh::model::getBoundary({{3, volume.tag}}, skin, false, false);
+    std::set<int> surfaces;
+    for (const auto& [dim, tag] : skin) surfaces.insert(tag);
+    const bool is_extruded = std::any_of(extrusions.begin(), extrusions.end(), [&](const PeriodicLink& link) {
+      return surfaces.count(link.slave) && surfaces.count(link.master);
+    });
+    for (const int tag : is_extruded ? surfaces : std::set<int>())
+      if (is_made_of(*find_entity(mesh, 2, tag), 4)) walls.insert(tag);
+  }
+  return walls;
+}
+
 }  // namespace qmorph::adapter

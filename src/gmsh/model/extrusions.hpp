@@ -4,6 +4,7 @@
 /// nodes of the other where it expects them, so that the second has to stay the image of the first.
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "gmsh/model/model_mesh.hpp"
@@ -17,5 +18,8 @@ namespace qmorph::adapter {
 /// \param known links that are there already
 std::vector<PeriodicLink> find_extrusions(const ModelMesh& mesh, const std::vector<std::uint32_t>& entities,
                                           const std::vector<PeriodicLink>& known);
+
+/// Surfaces of quads between the ends of extruded volumes: Gmsh finds the nodes of the volumes on them.
+std::set<int> find_extruded_walls(const ModelMesh& mesh, const std::vector<PeriodicLink>& extrusions);
 
 }  // namespace qmorph::adapter

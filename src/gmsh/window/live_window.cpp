@@ -16,6 +16,9 @@ constexpr const char* kButton = "ONELAB/Button";
 /// In pixels: wide enough for our words beside their fields.
 constexpr int kMenuWidth = 340, kGraphicsWidth = 1100, kGraphicsHeight = 720;
 
+/// What selectEntities() returns.
+constexpr int kGivenUp = 0, kSelected = 1, kUndone = 3, kEnded = 4;
+
 /// Of an element's sides: dark on light colours and on the background.
 constexpr int kMeshLines[] = {60, 60, 70};
 
@@ -29,6 +32,11 @@ LoadedState loaded_state() {
   state.triangles = get_option("Mesh.NbTriangles");
   state.quads = get_option("Mesh.NbQuadrangles");
   return state;
+}
+
+void begin_drawing(const std::string& script) {
+  ::gmsh::model::add("untitled");
+  ::gmsh::model::setFileName(script);
 }
 
 void define_parameters(const std::string& json) { ::gmsh::onelab::set(json); }
@@ -114,23 +122,39 @@ LiveWindow::LiveWindow() {
 
 bool LiveWindow::is_open() const { return ::gmsh::fltk::isAvailable() > 0; }
 
-void LiveWindow::turn(double seconds) { ::gmsh::fltk::wait(seconds); }
+// Gmsh's calls would open a window that the user has closed.
+
+void LiveWindow::turn(double seconds) {
+  if (is_open()) ::gmsh::fltk::wait(seconds);
+}
 
 void LiveWindow::refresh() {
+  if (!is_open()) return;
   ::gmsh::fltk::update();
   ::gmsh::graphics::draw();
 }
 
-void LiveWindow::draw() { ::gmsh::graphics::draw(); }
-
-void LiveWindow::status(const std::string& text) { ::gmsh::fltk::setStatusMessage(text); }
+void LiveWindow::status(const std::string& text) {
+  if (is_open()) ::gmsh::fltk::setStatusMessage(text);
+}
 
 std::vector<int> LiveWindow::pick_surfaces() {
-  ::gmsh::vectorpair picked;
+  const ScopedOption drawn("Geometry.Surfaces", 1);  // by a cross, which can be clicked on
+  refresh();
   std::vector<int> tags;
-  if (::gmsh::fltk::selectEntities(picked, 2) == 0) return tags;
-  for (const auto& [dim, tag] : picked)
-    if (dim == 2) tags.push_back(tag);
+  while (is_open()) {  // each call is one click
+    ::gmsh::vectorpair picked;
+    const int what = ::gmsh::fltk::selectEntities(picked, 2);
+    if (what == kEnded) break;
+    if (what == kGivenUp) return {};
+    if (what == kUndone && !tags.empty()) tags.pop_back();
+    for (const auto& [dim, tag] : picked) {
+      if (dim != 2) continue;
+      std::erase(tags, tag);
+      if (what == kSelected) tags.push_back(tag);
+    }
+    ::gmsh::fltk::setStatusMessage("surfaces: " + std::to_string(tags.size()) + "; e: that is all, q: give up");
+  }
   std::sort(tags.begin(), tags.end());
   return tags;
 }

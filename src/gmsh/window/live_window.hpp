@@ -16,6 +16,9 @@ struct LoadedState {
 
 LoadedState loaded_state();
 
+/// An empty model whose drawing goes to a script of that name, as soon as something is drawn.
+void begin_drawing(const std::string& script);
+
 /// Parameters in the tree on the left (ONELAB). Names are paths, as "qmorph/01Size factor": numbers before a word give
 /// the order and are not shown.
 void define_parameters(const std::string& json);
@@ -57,8 +60,6 @@ class LiveWindow {
   void turn(double seconds);
   /// Shows parameters that have been set, and draws.
   void refresh();
-  /// Draws only.
-  void draw();
   /// A line at the bottom.
   void status(const std::string& text);
   /// Surfaces that the user clicks on, by tag; empty if they give up. The window lives on meanwhile.
