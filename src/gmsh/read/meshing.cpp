@@ -206,7 +206,7 @@ void move_middle_nodes(const CurvedElements& elements) {
     ::gmsh::model::mesh::setNode(node.tag, {node.place.x(), node.place.y(), node.place.z()}, {});
   };
   for (Index s = 0; s < elements.sides(); ++s)
-    if (elements.side(s).is_straight)
+    if (elements.side(s).has_moved)
       for (const MiddleNode& node : elements.side(s).nodes) move(node);
   for (Index e = 0; e < elements.elements(); ++e)
     for (const MiddleNode& node : elements.element(e).inside) move(node);
@@ -229,8 +229,8 @@ RaisedModel raise_model() {
   for (const EntityMesh& entity : mesh.entities) {
     if (entity.dim != 2) continue;
     CurvedElements elements = read_curved_elements(mesh, entity);
-    if (const std::size_t straightened = elements.unfold(); straightened > 0) {
-      raised.straightened += straightened;
+    if (const std::size_t moved_sides = elements.unfold(); moved_sides > 0) {
+      raised.moved_sides += moved_sides;
       move_middle_nodes(elements);
     }
     const std::string where = find_bent(elements);
