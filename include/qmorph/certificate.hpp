@@ -15,7 +15,7 @@ namespace qmorph {
 
 enum class PoorBecause {
   kept,            ///< it is a quad of the input
-  boundary_angle,  ///< it fills a corner between two kept edges that is too sharp for any quad
+  boundary_angle,  ///< a corner between two kept edges is too sharp for any quad, or it is alone between four kept edges
   narrow,          ///< kept edges or nodes on either side of it are nearer to each other than they are long
   odd_region,      ///< it is beside the one triangle that a region with an odd boundary must have
   input_geometry,  ///< the surface is folded or turns sharply within it
@@ -23,7 +23,7 @@ enum class PoorBecause {
 };
 inline constexpr std::size_t kPoorReasons = 6;
 
-/// "a boundary angle too small", ...
+/// "the angles of its boundary", ...
 QMORPH_API std::string_view name_of(PoorBecause reason);
 
 struct PoorQuad {

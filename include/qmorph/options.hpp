@@ -139,7 +139,10 @@ struct Options {
 /// \throws UsageError if there is no such name or the value is out of range
 QMORPH_API void set_option(Options& options, std::string_view name, double value);
 
-/// The names that `set_option` knows.
+/// What `set_option` would set, in the same units. \throws UsageError if there is no such name
+QMORPH_API double get_option(const Options& options, std::string_view name);
+
+/// The names that both know.
 QMORPH_API std::vector<std::string> option_names();
 
 }  // namespace qmorph

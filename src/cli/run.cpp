@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "cli/gui/gui.hpp"
 #include "cli/messages/error_stream.hpp"
 #include "cli/process/standard_input.hpp"
 #include "cli/process/standard_streams.hpp"
@@ -40,6 +41,7 @@ int run_with_streams(Request request, const std::vector<std::string>& arguments,
   if (!process.gmsh_home.empty()) err.call(process.gmsh_home + "/.gmsh-tmp", "-string");
   const Call call{request, arguments, out, err, process};
   if (request.check) return check_file(call);
+  if (request.gui) return show_gui(call);
   if (!request.to_stdout) return convert_file(call);
   output.emplace(".msh");
   request.output = output->path();
@@ -64,7 +66,9 @@ int run_request(const std::vector<std::string>& arguments, std::ostream& out, Er
   if (request.help || request.version) return all_converted;
   const int status = run_with_streams(request, arguments, out, err, process);
   // Where it went wrong there is a line that says it, and nobody wants more.
-  if (process.slate) process.slate->shows_foreign_words = request.verbosity >= 2 && status <= converted_in_part;
+  // Gmsh's window has a log of its own, and what its toolkit says is about nothing that the user has done.
+  if (process.slate)
+    process.slate->shows_foreign_words = request.verbosity >= 2 && status <= converted_in_part && !request.gui;
   return status;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <utility>
 
 #include "engine/ear.hpp"
@@ -92,6 +91,13 @@ bool is_small(const Region& region, const Options& options) {
 /// Whether so many triangles are few enough for other constants of the front.
 bool may_try_again(std::size_t triangles, const Options& options) { return triangles <= 2 * options.retry_triangles; }
 
+/// A front that was finished, and what it has cost.
+struct Front {
+  front::Decisions decisions;
+  std::uint64_t fingerprint;  ///< of what it has made
+  std::size_t front_work, finish_work;
+};
+
 /// What an attempt costs in a region of no size.
 constexpr std::size_t kWorkPerAttempt = 200;
 
@@ -158,6 +164,10 @@ class RegionConverter {
         ++best.report.budgets_spent;
         break;
       }
+      if (const Front* same = made_before(options.front)) {
+        cost_ += same->front_work + same->finish_work;
+        continue;
+      }
       Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true,
                               kMostGrowth * (count_faces(best.mesh, 4) + kFew));
       const Worth others = judge(other.mesh);
@@ -175,28 +185,42 @@ class RegionConverter {
     Options final = options;
     if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(final, result.report, result.record, input_, allowed);
-    if (with_front) pipeline.advance_front(result.mesh, plane_);
+    // Without a second try there is nothing to compare with.
+    const bool notes_fronts = with_front && may_try_again(region_.triangles.size(), options_);
+    Front front{};
+    if (with_front) pipeline.advance_front(result.mesh, plane_, notes_fronts ? &front.decisions : nullptr);
     const std::size_t front_work = result.mesh.work();
     cost_ += front_work;
     if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
       result.fault = SurfaceError("too many elements");
       return result;
     }
-    // Without a second try there is nothing to compare with.
-    const std::uint64_t made = may_try_again(region_.triangles.size(), options_) ? result.mesh.fingerprint() : 0;
-    if (const auto known = finished_.find(made); known != finished_.end()) {
-      result.fault = SurfaceError("the front has made this before");
-      cost_ += known->second;
-      return result;
+    front.front_work = front_work;
+    if (notes_fronts) {
+      front.fingerprint = result.mesh.fingerprint();
+      const auto same = std::find_if(finished_.begin(), finished_.end(),
+                                     [&](const Front& other) { return other.fingerprint == front.fingerprint; });
+      if (same != finished_.end()) {
+        result.fault = SurfaceError("the front has made this before");
+        cost_ += front.finish_work = same->finish_work;
+        finished_.push_back(front);
+        return result;
+      }
     }
     pipeline.finish(result.mesh);
-    const std::size_t finish_work = result.mesh.work() - front_work;
-    if (made) finished_.emplace(made, finish_work);
-    cost_ += finish_work;
+    cost_ += front.finish_work = result.mesh.work() - front_work;
+    if (notes_fronts) finished_.push_back(front);
     if (is_small_) raise_corners(result.mesh, options.smoothing);
     if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
     return result;
+  }
+
+  /// The finished front that these constants would repeat, or null.
+  const Front* made_before(const FrontOptions& options) const {
+    for (const Front& front : finished_)
+      if (front.decisions.would_be_same(options)) return &front;
+    return nullptr;
   }
 
   /// Nothing if the region is not large, or has no valid result in parts.
@@ -232,9 +256,9 @@ class RegionConverter {
   const bool is_small_;  ///< so that a second try is allowed
   const double allowed_;
   std::size_t cost_ = 0;
-  std::map<std::uint64_t, std::size_t> finished_;  ///< fingerprints of what fronts made: what the rest has cost
-  kernel::Mesh start_;                             ///< what the front begins with
-  kernel::Mesh input_;                             ///< as it came, if stages are measured
+  std::vector<Front> finished_;
+  kernel::Mesh start_;  ///< what the front begins with
+  kernel::Mesh input_;  ///< as it came, if stages are measured
 };
 
 /// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.

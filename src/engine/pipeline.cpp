@@ -58,12 +58,13 @@ void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds)
   start_ = Clock::now();
 }
 
-void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane) {
+void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   front::MorphSettings settings;
   settings.check_each_step = options_.check_each_step;
   settings.progress = [&](double share) { progress("front", 0.5 * share); };
   settings.observer = options_.observer;
+  settings.decisions = decisions;
   settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
   if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
   report_.front_quads += count_faces(mesh, 4);

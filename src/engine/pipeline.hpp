@@ -8,6 +8,7 @@
 
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
+#include "front/decisions.hpp"
 #include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/error.hpp"
@@ -22,8 +23,9 @@ class Pipeline {
   /// the mesh better ends when all together has cost as much work as is allowed (allowance.hpp).
   Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start, double allowed);
 
-  /// Triangles to quads, as far as the front comes. `plane` is for the observer. \throws Cancelled, as all stages do
-  void advance_front(kernel::Mesh& mesh, const Plane& plane);
+  /// Triangles to quads, as far as the front comes. `plane` is for the observer; `decisions`, if not null, is told what
+  /// the constants have decided. \throws Cancelled, as all stages do
+  void advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions = nullptr);
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 

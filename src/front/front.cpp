@@ -23,8 +23,8 @@ bool is_forced(std::uint32_t key) { return (key >> kPriorityShift & 3) == kForce
 
 }  // namespace
 
-Front::Front(const Mesh& mesh, const FrontOptions& options)
-    : mesh_(mesh), options_(options), corner_cosine_(std::cos(options.corner_angle)) {}
+Front::Front(const Mesh& mesh, const FrontOptions& options, Decisions* decisions)
+    : mesh_(mesh), decisions_(decisions), corner_cosine_(std::cos(options.corner_angle)) {}
 
 double Front::angle_between(Index incoming, Index outgoing) const {
   const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
@@ -44,7 +44,10 @@ bool Front::is_corner(Index incoming, Index outgoing) const {
   const Vec2 back = -mesh_.vector(incoming), ahead = mesh_.vector(outgoing);
   const double area = cross(ahead, back), dot = ahead.dot(back);
   if (area < 0 || (area == 0 && dot > 0)) return false;
-  return dot * std::abs(dot) > corner_cosine_ * std::abs(corner_cosine_) * ahead.squaredNorm() * back.squaredNorm();
+  const double aa = ahead.squaredNorm(), bb = back.squaredNorm();
+  const bool is_corner = signed_square(dot) > signed_square(corner_cosine_) * aa * bb;
+  if (decisions_) decisions_->corner.note(signed_square(dot) / (aa * bb), !is_corner);
+  return is_corner;
 }
 
 Base Front::look_at(Index h) const {

@@ -11,6 +11,7 @@
 #include <map>
 #include <vector>
 
+#include "front/decisions.hpp"
 #include "front/logged_column.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
@@ -34,7 +35,8 @@ struct Base {
 
 class Front {
  public:
-  Front(const Mesh& mesh, const FrontOptions& options);
+  /// `decisions`: is told what the constants have decided; may be null.
+  Front(const Mesh& mesh, const FrontOptions& options, Decisions* decisions = nullptr);
 
   // --- membership and neighbours: questions to the mesh -------------------------------------------
   bool contains(Index h) const {
@@ -105,7 +107,7 @@ class Front {
   static Key key_of(unsigned level, unsigned priority, double length);
 
   const Mesh& mesh_;
-  FrontOptions options_;
+  Decisions* decisions_;
   double corner_cosine_;
   LoggedColumn<unsigned> levels_;
   /// By half-edge: the key of the entry that counts, 0 for none; other entries are passed over.

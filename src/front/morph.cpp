@@ -22,13 +22,14 @@ constexpr int kMostRounds = 8;
 
 class Morph {
  public:
-  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check)
+  Morph(kernel::Mesh& mesh, const FrontOptions& options, bool check, Decisions* decisions)
       : mesh_(mesh),
-        front_(mesh, options),
+        front_(mesh, options, decisions),
         colours_(mesh, front_),
-        step_{mesh, front_, colours_, options, {}, {}},
+        step_{mesh, front_, colours_, options, {}, {}, decisions},
         options_(options),
-        check_(check) {
+        check_(check),
+        decisions_(decisions) {
     start();
   }
 
@@ -100,9 +101,14 @@ class Morph {
     const Base first = front_.look_at(h);
     if (front_.was_forced() || first.state.corners() == 2) return first;
     Index shortest = h;
-    double least = mesh_.length(h) / options_.transition_ratio;
-    for (Index n : {first.before, first.after})
-      if (!is_aside_[n] && mesh_.length(n) < least) shortest = n, least = mesh_.length(n);
+    const double length = mesh_.length(h);
+    double least = length / options_.transition_ratio;
+    for (Index n : {first.before, first.after}) {
+      if (is_aside_[n]) continue;
+      const double other = mesh_.length(n);
+      if (decisions_) decisions_->transition.note(length / other, other >= length / options_.transition_ratio);
+      if (other < least) shortest = n, least = other;
+    }
     if (shortest == h) return first;
     front_.push(h);
     return front_.look_at(shortest);
@@ -190,9 +196,9 @@ class Morph {
   bool special_case(const Base& base, Index in, Index out) {
     if (in == out || Mesh::twin(in) == out) return false;
     const double l1 = mesh_.length(in), l2 = mesh_.length(out);
-    const bool transition = std::max(l1, l2) > options_.transition_ratio * std::min(l1, l2);
-    if (front_.is_angle_below(in, out, std::max(options_.seam_angle, options_.seam_angle_many)) &&
-        front_.is_angle_below(in, out, seam_angle(mesh_.target(in)))) {
+    const bool transition = is_transition(l1, l2);
+    if (!transition && mesh_.is_boundary(mesh_.target(in))) return false;  // where no seam is possible
+    if (is_seam(in, out)) {
       if (transition) return attempt(StepKind::transition_seam, [&] { return transition_seam(step_, in, out); });
       return attempt(StepKind::seam, [&] { return seam(step_, in, out); });
     }
@@ -212,14 +218,34 @@ class Morph {
     return split(StepKind::refinement, base, step_.size[from] < step_.size[to] ? from : to);
   }
 
-  double seam_angle(Index v) const {
+  bool is_transition(double l1, double l2) const {
+    const double longer = std::max(l1, l2), shorter = std::min(l1, l2);
+    const bool is_transition = longer > options_.transition_ratio * shorter;
+    if (decisions_) decisions_->transition.note(longer / shorter, !is_transition);
+    return is_transition;
+  }
+
+  bool is_seam(Index in, Index out) const {
+    const double most = std::max(options_.seam_angle, options_.seam_angle_many);
+    if (!front_.is_angle_below(in, out, most)) {  // nearly always
+      if (decisions_) decisions_->seam.note(most, false), decisions_->seam_many.note(most, false);
+      return false;
+    }
+    const bool has_many = has_many_quads(mesh_.target(in));
+    const double angle = front_.angle_between(in, out);
+    const bool is_seam = angle < (has_many ? options_.seam_angle_many : options_.seam_angle);
+    if (decisions_) (has_many ? decisions_->seam_many : decisions_->seam).note(angle, is_seam);
+    return is_seam;
+  }
+
+  bool has_many_quads(Index v) const {
     int quads = 0;
     Index h = mesh_.out(v);
     do {
       quads += mesh_.is_quad(mesh_.face(h));
       h = mesh_.rotate_ccw(h);
     } while (h != mesh_.out(v));
-    return quads >= 5 ? options_.seam_angle_many : options_.seam_angle;
+    return quads >= 5;
   }
 
   /// Quads that should share the angle at a node of the front; the side edge stands off the base edge by one of them.
@@ -287,6 +313,7 @@ class Morph {
   Step step_;
   FrontOptions options_;
   bool check_;
+  Decisions* decisions_;
   std::size_t steps_ = 0;
   std::size_t made_ = 0;  ///< steps that were no splits
   LoggedColumn<bool> is_aside_;
@@ -303,7 +330,7 @@ class Morph {
 }  // namespace
 
 std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options, const MorphSettings& settings) {
-  Morph morph(mesh, options, settings.check_each_step);
+  Morph morph(mesh, options, settings.check_each_step, settings.decisions);
   if (settings.observer) morph.watch(*settings.observer, settings.frame);
   return morph.run(settings.progress);
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "front/decisions.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/observer.hpp"
 #include "qmorph/options.hpp"
@@ -16,6 +17,7 @@ struct MorphSettings {
   std::function<void(double)> progress{};  ///< called now and then with the share of triangles done; may be empty
   Observer* observer = nullptr;            ///< is asked who wants to see the steps; may be null
   FlatFrame frame{};                       ///< for the observer: where the mesh lies in the model
+  Decisions* decisions = nullptr;          ///< is told what the constants have decided; may be null
 };
 
 /// Turns triangles into quads from the boundary inwards. Every element of the mesh is valid before and after;

@@ -55,6 +55,14 @@ Fan look_around(const Step& step, const Corner& corner, const Taken& taken) {
   return fan;
 }
 
+/// A side edge that is there may be so far off its ideal direction; one that is to be made may be as far as the limit.
+bool is_near(const Step& step, double off, bool is_there) {
+  const double most = step.options.side_edge_angle;
+  const bool is_near = off < most || (off == most && !is_there);
+  if (step.decisions) step.decisions->side_edge.note(off, is_near);
+  return is_near;
+}
+
 /// Where the ray from the corner's node in the ideal direction meets the edge of o; clamped to its inner part.
 Vec2 ray_meets_edge(const Mesh& mesh, const Corner& corner, Index o) {
   constexpr double kMargin = 0.1;
@@ -81,7 +89,7 @@ Index swap_for_side_edge(Step& step, const Corner& corner, const Taken& taken, I
   } else {
     const double off = std::abs(ccw_angle(mesh.vector(corner.outgoing), side) - corner.ideal_angle);
     const double most = step.options.side_edge_length * (mesh.length(corner.incoming) + mesh.length(corner.outgoing));
-    if (off > step.options.side_edge_angle || side.norm() > most) return kNone;
+    if (side.norm() > most || !is_near(step, off, false)) return kNone;
   }
   mesh.flip(o);
   return Mesh::twin(o);
@@ -104,7 +112,7 @@ Index define_side_edge(Step& step, const Corner& corner, const Taken& taken) {
   kernel::Mesh& mesh = step.mesh;
   const Fan fan = look_around(step, corner, taken);
   step.notes.side = SideEdge::existing;
-  if (fan.best != kNone && fan.best_angle < step.options.side_edge_angle) return without_odd_loop(step, fan.best);
+  if (fan.best != kNone && is_near(step, fan.best_angle, true)) return without_odd_loop(step, fan.best);
 
   const Index opposite = mesh.next(fan.wedge);
   const bool is_free = mesh.is_triangle(mesh.face(Mesh::twin(opposite))) && opposite != taken.half_edge &&

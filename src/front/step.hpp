@@ -28,8 +28,9 @@ struct Step {
   Front& front;
   LoopColours& colours;
   const FrontOptions& options;
-  LoggedColumn<double> size;  ///< edge length that the input has at a node
-  std::vector<Index> moved;   ///< nodes that the step moved or created
+  LoggedColumn<double> size;       ///< edge length that the input has at a node
+  std::vector<Index> moved;        ///< nodes that the step moved or created
+  Decisions* decisions = nullptr;  ///< is told what the constants have decided; may be null
 
   // Scratch space, kept to avoid allocations.
   std::vector<Index> scratch{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/z_curve.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -15,9 +16,11 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | (x << 1)) & 0x55555555;
 }
 
-/// Sorts by the upper 32 bits, and keeps the order of what is equal there: a counting sort for each digit.
+/// Sorts the keys, whose lower 32 bits ascend: a counting sort for each digit of the upper ones, if there are many.
 void sort_by_place(std::vector<std::uint64_t>& keys) {
   constexpr int kDigit = 11;  // bits
+  constexpr std::size_t kFew = 512;
+  if (keys.size() <= kFew) return std::sort(keys.begin(), keys.end());
   std::vector<std::uint64_t> sorted(keys.size());
   for (int shift = 32; shift < 64; shift += kDigit) {
     const auto digit = [&](std::uint64_t key) { return (key >> shift) & ((1u << kDigit) - 1); };

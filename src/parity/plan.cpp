@@ -12,6 +12,8 @@ namespace qmorph::parity {
 namespace {
 
 constexpr Cost kOneSplit = Cost{1} << 32;
+/// The matching takes the cube of this, and more.
+constexpr std::size_t kMostExact = 160;
 constexpr Cost kFar = std::numeric_limits<Cost>::max();
 
 struct Step {
@@ -19,28 +21,20 @@ struct Step {
   Cost cost;
 };
 
-/// The regions and, last, the outside, with the best link of each pair: of the fewest edges, and of those the longest.
+/// The regions and, last, the outside, with the cheapest link of each pair.
 class Graph {
  public:
-  Graph(std::size_t regions, const std::vector<Link>& links) : outside_(Index(regions)), steps_(regions + 1) {
-    double most = 0;
-    for (const Link& link : links) most = std::max(most, link.length);
-    // However many short edges a plan has, they never weigh as much as one split more.
-    const Cost most_extra = kOneSplit / Cost(steps_.size() + 1);
-    const auto cost_of = [&](const Link& link) {
-      const double shortness = most > 0 ? 1 - link.length / most : 0;
-      return link.splits * kOneSplit + Cost(shortness * double(most_extra));
-    };
+  Graph(std::size_t regions, const std::vector<PricedLink>& links) : outside_(Index(regions)), steps_(regions + 1) {
     std::map<std::pair<Index, Index>, Index> best;
     for (Index i = 0; i < links.size(); ++i) {
       const Index a = node_of(links[i].a), b = node_of(links[i].b);
       if (a == b) continue;  // both sides are one region's: nothing changes
       const auto [at, is_new] = best.try_emplace(std::minmax(a, b), i);
-      if (!is_new && cost_of(links[i]) < cost_of(links[at->second])) at->second = i;
+      if (!is_new && links[i].cost < links[at->second].cost) at->second = i;
     }
     for (const auto& [pair, i] : best) {
-      steps_[pair.first].push_back({pair.second, i, cost_of(links[i])});
-      steps_[pair.second].push_back({pair.first, i, cost_of(links[i])});
+      steps_[pair.first].push_back({pair.second, i, links[i].cost});
+      steps_[pair.second].push_back({pair.first, i, links[i].cost});
     }
   }
 
@@ -106,9 +100,45 @@ std::vector<std::vector<Index>> groups_of(const std::vector<Index>& terminals, c
   return groups;
 }
 
+/// Fewest splits first, then the longest edges.
+std::vector<PricedLink> price(std::size_t regions, const std::vector<Link>& links) {
+  double most = 0;
+  for (const Link& link : links) most = std::max(most, link.length);
+  // However many short edges a plan has, they never weigh as much as one split more.
+  const Cost most_extra = kOneSplit / Cost(regions + 2);
+  std::vector<PricedLink> priced;
+  for (const Link& link : links) {
+    const double shortness = most > 0 ? 1 - link.length / most : 0;
+    priced.push_back({link.a, link.b, link.splits * kOneSplit + Cost(shortness * double(most_extra))});
+  }
+  return priced;
+}
+
+/// Pairs of terminals that are near each other, taken out as long as there are more than `most`: each terminal in turn
+/// with the nearest one left.
+std::vector<std::pair<Index, Index>> take_near_pairs(std::vector<Index>& members, std::size_t most,
+                                                     const std::vector<Index>& terminals,
+                                                     const std::vector<Ways>& ways) {
+  std::vector<std::pair<Index, Index>> pairs;
+  while (members.size() > most) {
+    const Index first = members.back();
+    members.pop_back();
+    const auto cost_to = [&](Index other) { return ways[first].cost[terminals[other]]; };
+    const auto nearest =
+        std::min_element(members.begin(), members.end(), [&](Index i, Index j) { return cost_to(i) < cost_to(j); });
+    pairs.emplace_back(first, *nearest);
+    members.erase(nearest);
+  }
+  return pairs;
+}
+
 }  // namespace
 
 Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links) {
+  return plan_cheapest(odd, price(odd.size(), links));
+}
+
+Plan plan_cheapest(const std::vector<bool>& odd, const std::vector<PricedLink>& links) {
   const Graph graph(odd.size(), links);
   std::vector<Index> terminals;
   std::vector<Ways> ways;
@@ -120,7 +150,14 @@ Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links) {
 
   Plan plan;
   std::vector<bool> split(links.size(), false);
-  for (const std::vector<Index>& members : groups_of(terminals, ways, graph.outside())) {
+  // Two ways over one link: neither needs it.
+  const auto walk = [&](const Ways& from, Index start, Index goal) {
+    for (Index node = goal; node != start; node = from.last[node].to)
+      split[from.last[node].link] = !split[from.last[node].link];
+  };
+  for (std::vector<Index>& members : groups_of(terminals, ways, graph.outside())) {
+    for (const auto& [i, j] : take_near_pairs(members, kMostExact, terminals, ways))
+      walk(ways[i], terminals[i], terminals[j]);
     // One that is over goes to the outside; where no link leads there, it is any one that stays odd.
     const std::size_t size = members.size() + members.size() % 2;
     const auto cost_of = [&](std::size_t i, std::size_t j) {
@@ -141,9 +178,7 @@ Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links) {
         plan.odd_left.push_back(terminals[members[i]]);
         continue;
       }
-      // Two ways over one link: neither needs it.
-      for (Index node = goal; node != terminals[members[i]]; node = from.last[node].to)
-        split[from.last[node].link] = !split[from.last[node].link];
+      walk(from, terminals[members[i]], goal);
     }
   }
   for (Index i = 0; i < links.size(); ++i)

@@ -8,6 +8,7 @@
 /// what is wanted; the outside takes any number. The cheapest such set consists of paths that pair the odd regions
 /// [J. Edmonds, E. Johnson, Matching, Euler tours and the Chinese postman, 1973].
 
+#include <cstdint>
 #include <vector>
 
 #include "qmorph/export.hpp"
@@ -25,13 +26,22 @@ struct Link {
   int splits = 1;                    ///< how many edges
 };
 
+/// The same with a price.
+struct PricedLink {
+  Index a = kOutside, b = kOutside;
+  std::int64_t cost = 0;  ///< 0 .. 2^50
+};
+
 struct Plan {
   std::vector<Index> splits;    ///< links to split, in order
   std::vector<Index> odd_left;  ///< regions that stay odd because too few links lead to them
 };
 
 /// The fewest splits, and of those with as few the ones on the longest edges. As many regions become even as the links
-/// allow. Exact. Cost: (odd regions) * (links) * log, and the matching of the odd regions.
+/// allow. Exact, unless more than 160 odd regions hang together: of these some are paired with what is near. Cost:
+/// (odd regions) * (links) * log, and the matching of the odd regions.
 QMORPH_API Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links);
+/// The same for the least sum of costs.
+QMORPH_API Plan plan_cheapest(const std::vector<bool>& odd, const std::vector<PricedLink>& links);
 
 }  // namespace qmorph::parity

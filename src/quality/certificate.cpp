@@ -35,7 +35,7 @@ class Explanation {
   PoorBecause reason(Index quad) {
     const Index element = Index(after_.triangles.size()) + quad;
     if (was_there(quad)) return PoorBecause::kept;
-    if (fills_sharp_corner(element)) return PoorBecause::boundary_angle;
+    if (fills_sharp_corner(element) || is_alone(element)) return PoorBecause::boundary_angle;
     const std::set<Index> near = neighbourhood(element);
     if (is_narrow(near)) return PoorBecause::narrow;
     if (std::any_of(near.begin(), near.end(), [&](Index e) { return sides_.is_triangle(e); }))
@@ -79,6 +79,13 @@ class Explanation {
     for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side)
       if (is_open(side) && is_open(sides_.previous(side)) && angle(side) < sharp) return true;
     return false;
+  }
+
+  /// Between four kept edges.
+  bool is_alone(Index element) const {
+    for (Index side = 4 * element; side < 4 * element + 4; ++side)
+      if (!is_open(side)) return false;
+    return true;
   }
 
   /// The element and those that share a node with it, on its side of what is kept.
@@ -155,7 +162,7 @@ std::string_view name_of(PoorBecause reason) {
     case PoorBecause::kept:
       return "quads of the input";
     case PoorBecause::boundary_angle:
-      return "a boundary angle too small";
+      return "the angles of its boundary";
     case PoorBecause::narrow:
       return "curves or nodes too close";
     case PoorBecause::odd_region:

@@ -202,6 +202,10 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
   json["directed_size_ratio"] = directions_json(conversions.sizes);
   json["stages"] = stages_json(sum.stages);
   if (facts.even) json["all_quad"] = even_json(*facts.even);
+  if (facts.division.understood)
+    json["curves"] = {{"more_segments", facts.division.more},
+                      {"fewer_segments", facts.division.fewer},
+                      {"splits", even_json(facts.mended)["splits"]}};
   if (facts.volumes.volumes)
     json["volumes"] = {{"volumes", facts.volumes.volumes},
                        {"hexahedra", facts.volumes.hexahedra},

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gmsh/divide/divide.hpp"
 #include "gmsh/volumes/volumes.hpp"
 #include "qmorph/gmsh.hpp"
 #include "report/recorder.hpp"
@@ -18,7 +19,9 @@ struct RunFacts {
   std::string input, output;
   std::vector<std::string> arguments;  ///< of the command line
   int exit_status = 0;
-  std::optional<EvenReport> even;  ///< of --all-quad
+  std::optional<EvenReport> even;      ///< of --all-quad
+  adapter::DivisionReport division{};  ///< where Gmsh has meshed a geometry
+  EvenReport mended{};                 ///< and what it then took besides
   adapter::VolumeCounts volumes{};
   double open_seconds = 0, mesh_seconds = 0, write_seconds = 0, total_seconds = 0;
 };

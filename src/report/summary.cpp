@@ -140,4 +140,20 @@ std::string even_line(const EvenReport& even) {
   return line;
 }
 
+std::string division_line(const adapter::DivisionReport& division, const EvenReport& mended) {
+  const auto name = [](const std::vector<int>& curves, const char* how) {
+    constexpr std::size_t kMostNamed = 12;
+    return curves.empty()                ? std::string()
+           : curves.size() <= kMostNamed ? fmt::format("{} ({}) {}", curves.size(), fmt::join(curves, ", "), how)
+                                         : fmt::format("{} {}", curves.size(), how);
+  };
+  std::vector<std::string> parts;
+  for (const std::string& part : {name(division.more, "have more"), name(division.fewer, "have fewer")})
+    if (!part.empty()) parts.push_back(part);
+  if (!mended.splits.empty()) parts.push_back(counted(mended.splits.size(), "segment") + " got a node afterwards");
+  if (parts.empty()) return {};
+  return fmt::format("curves with other numbers of segments than Gmsh's, for even boundaries and rows that fit: {}",
+                     fmt::join(parts, ", "));
+}
+
 }  // namespace qmorph::report

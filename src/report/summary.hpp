@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "gmsh/divide/divide.hpp"
 #include "gmsh/volumes/volumes.hpp"
 #include "qmorph/gmsh.hpp"
 
@@ -24,5 +25,8 @@ std::string volume_line(const adapter::VolumeCounts& volumes);
 
 /// `--all-quad: 2 segments got a node, on curves 4, 7 (3 regions had an odd boundary); surface 3 stays odd`
 std::string even_line(const EvenReport& even);
+
+/// Which curves have another number of segments than Gmsh gives them; empty if none has.
+std::string division_line(const adapter::DivisionReport& division, const EvenReport& mended);
 
 }  // namespace qmorph::report

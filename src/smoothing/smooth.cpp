@@ -91,7 +91,8 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
     const Vec2 before = mesh.point(v);
     const bool was_valid = mesh.is_valid_star(v);
     untangle_node(mesh, v);
-    star.add_work(3 * star.elements() * star.elements() * star.elements());  // about as long as so many elements
+    // Counted as dearer than it is: where very many nodes need it, smoothing is not worth its time.
+    star.add_work(3 * star.elements() * star.elements() * star.elements());
     if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
     return (mesh.point(v) - before).norm() / edge;
   }

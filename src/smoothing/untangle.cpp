@@ -2,8 +2,10 @@
 #include "smoothing/untangle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "geometry/predicates.hpp"
 
@@ -53,26 +55,99 @@ double smallest(const std::vector<CornerArea>& areas, const Vec2& x, double floo
   return least;
 }
 
+/// Where the smallest of the areas is largest, found by going uphill: on one plane, then along the line where two are
+/// equal, from corner to corner of the roof that the smallest of all planes is.
+class Roof {
+ public:
+  explicit Roof(const std::vector<CornerArea>& areas) : areas_(areas) {}
+
+  /// The areas that are smallest at the top, all but for rounding; nothing if there was no way up.
+  std::vector<std::size_t> climb() {
+    std::size_t i = 0;
+    for (std::size_t n = 1; n < areas_.size(); ++n)
+      if (areas_[n].offset < areas_[i].offset) i = n;
+    std::optional<std::size_t> j = walk(areas_[i].slope, i, {});
+    if (!j) return {};
+    std::optional<std::size_t> k = along(i, *j, {});
+    constexpr int kMostCorners = 40;  // more only if it goes round in circles
+    for (int corner = 0; k && corner < kMostCorners; ++corner) {
+      const std::array<std::size_t, 3> at{i, *j, *k};
+      int side = 0;
+      while (side < 3 && !leads_up(at[side], at[(side + 1) % 3], at[(side + 2) % 3])) ++side;
+      if (side == 3) return lowest(at);
+      i = at[side], j = at[(side + 1) % 3];
+      k = along(i, *j, at[(side + 2) % 3]);
+    }
+    return {};
+  }
+
+ private:
+  /// The way along the line where i and j are equal, uphill.
+  Vec2 line(std::size_t i, std::size_t j) const {
+    const Vec2 across = areas_[i].slope - areas_[j].slope, way(-across.y(), across.x());
+    return areas_[i].slope.dot(way) < 0 ? Vec2(-way) : way;
+  }
+
+  /// Whether the line of i and j, uphill, leaves k above.
+  bool leads_up(std::size_t i, std::size_t j, std::size_t k) const {
+    const Vec2 way = line(i, j);
+    return areas_[i].slope.dot(way) > 0 && areas_[k].slope.dot(way) > areas_[i].slope.dot(way);
+  }
+
+  std::optional<std::size_t> along(std::size_t i, std::size_t j, std::optional<std::size_t> left) {
+    return walk(line(i, j), i, {j, left});
+  }
+
+  /// Goes on until an area is as small as i, and returns that.
+  std::optional<std::size_t> walk(const Vec2& way, std::size_t i, std::array<std::optional<std::size_t>, 2> others) {
+    const double rise = areas_[i].slope.dot(way), height = areas_[i].at(x_);
+    double share = std::numeric_limits<double>::infinity();
+    std::optional<std::size_t> met;
+    for (std::size_t n = 0; n < areas_.size(); ++n) {
+      if (n == i || n == others[0] || n == others[1]) continue;
+      const double nearer = rise - areas_[n].slope.dot(way);
+      if (!(nearer > 0)) continue;
+      const double until = std::max(0.0, areas_[n].at(x_) - height) / nearer;
+      if (until < share) share = until, met = n;
+    }
+    if (met) x_ += share * way;
+    return met;
+  }
+
+  std::vector<std::size_t> lowest(const std::array<std::size_t, 3>& corner) const {
+    constexpr double kRounding = 1e-9;
+    double most = 0;
+    for (const CornerArea& area : areas_) most = std::max(most, std::abs(area.offset));
+    const double height = areas_[corner[0]].at(x_);
+    std::vector<std::size_t> found;
+    for (std::size_t n = 0; n < areas_.size(); ++n)
+      if (areas_[n].at(x_) <= height + kRounding * most || std::count(corner.begin(), corner.end(), n) > 0)
+        found.push_back(n);
+    return found;
+  }
+
+  const std::vector<CornerArea>& areas_;
+  Vec2 x_ = Vec2::Zero();
+};
+
 }  // namespace
 
 bool untangle_node(kernel::Mesh& mesh, Index v) {
-  // Trying all triples is quartic in the number of corners: for a fan of many elements it is left to the energy.
-  constexpr std::size_t kMostCorners = 48;
   if (!mesh.is_free(v)) return false;
   const std::vector<CornerArea> areas = corner_areas(mesh, v);
-  if (areas.size() > kMostCorners) return false;
-  // The optimum of three unknowns (x and the smallest area) is a vertex: three areas are equal there. With a
-  // dozen or two of corners, trying all triples is simplest.
+  // The optimum of three unknowns (x and the smallest area) is where three areas are equal, or more.
+  const std::vector<std::size_t> top = Roof(areas).climb();
   Vec2 best = Vec2::Zero();
   double best_area = smallest(areas, best, -std::numeric_limits<double>::infinity());
   const double before = best_area;
-  for (std::size_t i = 0; i < areas.size(); ++i)
-    for (std::size_t j = i + 1; j < areas.size(); ++j)
-      for (std::size_t k = j + 1; k < areas.size(); ++k) {
-        const Vec2 a = areas[i].slope - areas[j].slope, b = areas[i].slope - areas[k].slope;
+  for (std::size_t i = 0; i < top.size(); ++i)
+    for (std::size_t j = i + 1; j < top.size(); ++j)
+      for (std::size_t k = j + 1; k < top.size(); ++k) {
+        const CornerArea &one = areas[top[i]], &two = areas[top[j]], &three = areas[top[k]];
+        const Vec2 a = one.slope - two.slope, b = one.slope - three.slope;
         const double determinant = cross(a, b);
         if (determinant == 0) continue;
-        const double p = areas[j].offset - areas[i].offset, q = areas[k].offset - areas[i].offset;
+        const double p = two.offset - one.offset, q = three.offset - one.offset;
         const Vec2 x((p * b.y() - q * a.y()) / determinant, (a.x() * q - b.x() * p) / determinant);
         const double area = smallest(areas, x, best_area);
         if (area > best_area) best = x, best_area = area;

@@ -25,7 +25,8 @@ Result::Result(const Patch& before, const QuadMesh& after)
       reference_(before),
       normals_(reference_.surface),
       sides_(after.points.size(), after.triangles, after.quads, kept_constraints(before, after)),
-      triangle_(locate({reference_.surface, after.points, after.triangles, after.quads, after.source}, sides_, normals_)),
+      triangle_(
+          locate({reference_.surface, after.points, after.triangles, after.quads, after.source}, sides_, normals_)),
       foot_(after.points.size()),
       normal_(after.points.size(), Vector3d::Zero()) {
   std::vector<char> is_inside(after.points.size(), 1);

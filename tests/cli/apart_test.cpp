@@ -92,6 +92,17 @@ TEST_CASE("apart: a crash of Gmsh is status 2 and one line, wherever it is") {
   CHECK(mentions(place.said, "(killed; is there not enough memory?)\n"));
 }
 
+TEST_CASE("apart: where there is no display, --gui is status 1 and one line") {
+  Place place;
+  write_file(place.directory / "in.geo", kSquare);
+  for (const std::string where : {"unset DISPLAY WAYLAND_DISPLAY", "unset WAYLAND_DISPLAY; export DISPLAY=:9999"}) {
+    CAPTURE(where);
+    CHECK(WEXITSTATUS(place.shell(where + "; \"$qmorph\" --gui in.geo")) == 1);
+    CHECK(place.said.rfind("qmorph: --gui: ", 0) == 0);
+    CHECK(std::count(place.said.begin(), place.said.end(), '\n') == 1);
+    CHECK(place.files() == std::vector<std::string>{"in.geo"});
+  }
+}
 TEST_CASE("apart: no signal that ends the program leaves a file") {
   Place place;
   write_file(place.directory / "in.geo", kSquare + "Mesh.MeshSizeMax = 0.02;\n");

@@ -201,3 +201,16 @@ TEST_CASE("request: counts are whole numbers") {
     }
   CHECK(parse({"in.msh", "-nt", "0"}).threads == 0);
 }
+
+TEST_CASE("request: the window needs no file, and has a panel for what is to be done") {
+  CHECK(parse({"--gui"}).gui);
+  CHECK(parse({"--gui"}).input.empty());
+  const Request request = parse({"in.geo", "--gui", "--crease", "30", "-clmax", "0.1", "-o", "out.msh"});
+  CHECK(request.input == "in.geo");
+  CHECK(request.crease == 30);
+  CHECK(!request.view);
+  for (const Words& words : {Words{"--gui", "--check", "in.msh"}, Words{"--gui", "in.geo", "--view"},
+                             Words{"--gui", "in.geo", "--report", "a.html"}, Words{"--gui", "-"},
+                             Words{"--gui", "in.geo", "-o", "-"}, Words{"--gui", "in.geo", "--for", "mfem"}})
+    CHECK_THROWS_AS(parse(words), UsageError);
+}

@@ -35,3 +35,16 @@ TEST_CASE("named options: what is no name, no number or out of range is refused"
   CHECK_THROWS_AS(set_option(options, "MYMIN", std::nan("")), UsageError);
   CHECK_THROWS_AS(set_option(options, "cleanup.pattern_rounds", 1e9), UsageError);
 }
+
+TEST_CASE("named options: what was set is what is got") {
+  Options options;
+  CHECK(get_option(options, "EPSILON2") == doctest::Approx(45));
+  CHECK(get_option(options, "layers") == 1);
+  CHECK(get_option(options, "part_triangles") == 120'000);
+  for (const std::string& name : option_names()) {
+    const double value = get_option(options, name);
+    set_option(options, name, value == 0 ? 1 : value == 1 ? 0 : value * 0.75);
+    CHECK_MESSAGE(get_option(options, name) != value, name);
+  }
+  CHECK_THROWS_AS(get_option(options, "epsilon2"), UsageError);
+}

@@ -177,8 +177,7 @@ TEST_CASE("broken files: data, periodic nodes, groups and names that reach beyon
       {mesh.substr(0, mesh.find("$Elements")) + "$Elements\n1\n1 2 4 0 1 1 2000000000 1 2 3\n$EndElements\n",
        "the first is 2000000000"},
       {mesh.substr(0, mesh.find("$Elements")) + "$Elements\n1\n1 2 2 0 1 1 two 3\n$EndElements\n", "has 'two' where"},
-      {"$MeshFormat\n4.1 1 4\n\1\0\0\0\n$EndMeshFormat\n$Elements\n$EndElements\n"s,
-       "numbers of 4 bytes"},
+      {"$MeshFormat\n4.1 1 4\n\1\0\0\0\n$EndMeshFormat\n$Elements\n$EndElements\n"s, "numbers of 4 bytes"},
   };
   const TemporaryDirectory directory;
   for (const auto& the_case : kCases) {

@@ -71,6 +71,19 @@ TEST_CASE("certificate: a corner of the boundary that is too sharp, and only one
   }
 }
 
+TEST_CASE("certificate: a quad that is alone between four kept edges, though no corner is too sharp") {
+  Patch patch;
+  patch.points = {{0, 0, 0}, {1, -0.9, 0}, {2, 0, 0}, {1, 0.05, 0}};  // nearly straight at the last one
+  patch.triangles = {{0, 1, 3}, {1, 2, 3}};
+  QuadMesh mesh;
+  mesh.points = patch.points;
+  mesh.source = {0, 1, 2, 3};
+  mesh.quads = {{0, 1, 2, 3}};
+  const auto poor = explain(patch, mesh);
+  REQUIRE(poor.size() == 1);
+  CHECK(poor[0].reason == PoorBecause::boundary_angle);
+}
+
 TEST_CASE("certificate: a narrow strip whose nodes do not face each other") {
   // Two rows of nodes 0.1 apart, the upper ones half a step on: every quad leans.
   QuadMesh mesh;

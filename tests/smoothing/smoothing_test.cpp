@@ -2,6 +2,8 @@
 // Nodes move, elements only get better.
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "kernel/fixture.hpp"
@@ -239,6 +241,45 @@ TEST_CASE("untangle_node makes a star valid from anywhere if any position does")
     }
   }
   CHECK(untangled > 200);
+}
+
+TEST_CASE("untangle_node leaves no better place, in fans of many elements neither") {
+  // Of the corners that depend on v.
+  const auto smallest_area = [](const Mesh& mesh, Index v) {
+    double least = 1e300;
+    Index h = mesh.out(v);
+    do {
+      const Index to_v = mesh.prev(h);
+      least = std::min(least, cross(mesh.vector(h), -mesh.vector(to_v)));
+      least = std::min(least, cross(mesh.vector(mesh.next(h)), -mesh.vector(h)));
+      least = std::min(least, cross(mesh.vector(to_v), -mesh.vector(mesh.prev(to_v))));
+      h = mesh.rotate_ccw(h);
+    } while (h != mesh.out(v));
+    return least;
+  };
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    CAPTURE(seed);
+    Rng rng(seed);
+    const Index count = 3 + Index(rng.between(0, seed % 4 == 0 ? 80 : 12));
+    std::vector<Vec2> points{Vec2(rng.between(-2, 2), rng.between(-2, 2))};
+    std::vector<std::array<Index, 3>> triangles;
+    for (Index i = 0; i < count; ++i) {
+      // As regular as can be at times: then more than three areas are equal at the best place.
+      const double turn = 2 * std::numbers::pi * double(i) / double(count),
+                   radius = seed % 3 == 0 ? 1 : rng.between(0.5, 2);
+      points.emplace_back(radius * std::cos(turn), radius * std::sin(turn));
+      triangles.push_back({0, 1 + i, 1 + (i + 1) % count});
+    }
+    Mesh mesh(points, triangles);
+    untangle_node(mesh, 0);
+    const Vec2 found = mesh.point(0);
+    const double best = smallest_area(mesh, 0);
+    for (int i = 0; i < 64; ++i) {
+      const double turn = 2 * std::numbers::pi * double(i % 16) / 16, step = std::pow(0.1, 1 + i / 16);
+      mesh.set_point(0, found + step * Vec2(std::cos(turn), std::sin(turn)));
+      REQUIRE(smallest_area(mesh, 0) < best + 1e-9);
+    }
+  }
 }
 
 TEST_CASE("raise_smallest_sine never lowers the smallest sine, and raises a small one") {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "hard_inputs.hpp"
 
+#include <numbers>
+
+#include "curved_shapes.hpp"
 #include "hard_shapes.hpp"
 #include "sheets.hpp"
 
@@ -126,6 +129,31 @@ std::vector<HardInput> hard_inputs() {
        }},
       {"edges turned at random", [=] { return std::vector{turned(100, 100)}; }},
       {"half of it quads already", [=] { return std::vector{mixed(120, 120, 0.3)}; }},
+      {"curved: half a cylinder",
+       [=] { return std::vector{bent(make(120, 120, 0.15), roll(120 / std::numbers::pi))}; }},
+      {"curved: waves", [=] { return std::vector{bent(make(120, 120, 0.15), waves(40, 4))}; }},
+      {"curved: tube",
+       [=] {
+         Random r(2);
+         return std::vector{tube(100, 140, 0.15, r)};
+       }},
+      {"curved: torus",
+       [=] {
+         Random r(2);
+         return std::vector{torus(240, 60, 0.15, r)};
+       }},
+      {"curved: closed sphere",
+       [=] {
+         Random r(2);
+         return std::vector{sphere(60, 0.15, r)};
+       }},
+      {"curved: 100 ragged surfaces of 280 triangles",
+       [=] {
+         Random r(2);
+         std::vector<Patch> pieces = ragged_pieces(make(120, 120, 0.15), 11, r);
+         for (Patch& piece : pieces) piece = bent(std::move(piece), waves(40, 4));
+         return pieces;
+       }},
   };
 }
 

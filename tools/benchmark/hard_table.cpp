@@ -28,20 +28,21 @@ Figures convert(const HardInput& input) {
   std::printf("%-52s %8zu %8.3f %7.1f", input.name.c_str(), figures.triangles, figures.cpu,
               1e6 * figures.cpu / double(figures.triangles));
   qmorph::QualityAccumulator quality;
+  std::size_t i = 0;
   std::size_t refused = 0;
   std::string reason;
   qmorph::ConversionReport report;
   for (const qmorph::Outcome& outcome : outcomes) {
+    const qmorph::Patch& patch = patches[i++];
     if (!outcome.conversion) {
       ++refused, reason = outcome.error->what();
       continue;
     }
-    const qmorph::QuadMesh& mesh = outcome.conversion->mesh;
     report.add(outcome.conversion->report);
-    quality.add(mesh.points, mesh.triangles, mesh.quads, Eigen::Vector3d::UnitZ());
+    quality.add(patch, outcome.conversion->mesh);
   }
   const qmorph::Quality q = quality.result();
-  std::printf(" %8zu %6zu %7.4f %6.3f %6.2f %6.2f %6.2f %6.2f", q.quads, q.triangles, q.scaled_jacobian_min,
+  std::printf(" %8zu %6zu %7.4f %6.3f %6.2f %7.2f %7.2f %6.2f", q.quads, q.triangles, q.scaled_jacobian_min,
               q.scaled_jacobian_mean, report.front_seconds, report.elimination_seconds, report.cleanup_seconds,
               report.smoothing_seconds);
   if (q.inverted > 0) std::printf(" %zu inverted", q.inverted);
@@ -54,8 +55,8 @@ Figures convert(const HardInput& input) {
 }  // namespace
 
 bool time_hard_inputs(const std::string& word, double limit) {
-  std::printf("%-52s %8s %8s %7s %8s %6s %7s %6s\n", "", "triangles", "seconds", "us/tri", "quads", "left", "SJ min",
-              "mean");
+  std::printf("%-52s %8s %8s %7s %8s %6s %7s %6s %6s %7s %7s %6s\n", "", "triangles", "seconds", "us/tri", "quads",
+              "left", "SJ min", "mean", "front", "elimin.", "cleanup", "smooth");
   bool all_quick = true;
   for (const HardInput& input : hard_inputs()) {
     if (input.name.find(word) == std::string::npos) continue;

@@ -84,6 +84,8 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
       for (const std::string& warning : surface.warnings)
         err << "warning: surface " << surface.tag << ": " << warning << '\n';
     }
+    const std::string division = report::division_line(facts.division, facts.mended);
+    if (!division.empty()) err << division << '\n';
     if (facts.even) err << report::even_line(*facts.even) << '\n';
     print_triangles(request, model, err);
     if (facts.volumes.volumes) err << report::volume_line(facts.volumes) << '\n';

@@ -94,6 +94,7 @@ void add_side_files(CLI::App& app, Request& request) {
   app.add_option("--colour", request.colour);
   app.add_flag("--views", request.views);
   app.add_flag("--view", request.view);
+  app.add_flag("--gui", request.gui);
 }
 
 }  // namespace
@@ -119,9 +120,12 @@ Request parse(const std::vector<std::string>& arguments) {
     throw UsageError(with_our_spelling(error.what()));
   }
   if (request.help || request.version) return request;
-  if (request.merged.empty()) throw UsageError("which file? (qmorph IN [-o OUT])");
-  request.input = request.merged.front();
-  request.merged.erase(request.merged.begin());
+  if (!request.merged.empty()) {
+    request.input = request.merged.front();
+    request.merged.erase(request.merged.begin());
+  } else if (!request.gui) {
+    throw UsageError("which file? (qmorph IN [-o OUT])");
+  }
   check_combination(request, [&app](const std::string& option) { return app.count(option) > 0; });
   return request;
 }

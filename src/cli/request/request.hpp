@@ -43,6 +43,7 @@ struct Request {
   bool orient = false;      ///< neighbouring elements agree in the end
   bool views = false;       ///< figures go into the mesh file, or beside it
   bool view = false;        ///< Gmsh's window in the end
+  bool gui = false;         ///< Gmsh's window with a panel, and nothing else
   bool check = false;       ///< judge the mesh, write nothing
   bool no_meshing = false;  ///< -save: what has no elements gets none
   bool drop_volumes = false;

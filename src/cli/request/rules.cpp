@@ -51,6 +51,17 @@ void check_conversion(const Request& request, const Given& given) {
     throw UsageError("--keep-curves means nothing without --all-quad");
 }
 
+/// The window asks for names of files itself.
+constexpr std::array kNotInTheWindow = {"--check", "--for",  "--stats",   "--report", "--film", "--svg",
+                                        "--pdf",   "--tikz", "--depfile", "--views",  "--view"};
+
+void check_window(const Request& request, const Given& given) {
+  if (!request.gui) return;
+  if (request.input == "-" || request.output == "-") throw UsageError("--gui: the window reads and writes files");
+  for (const std::string option : kNotInTheWindow)
+    if (given(option)) throw UsageError("--gui has a panel for what is to be done; leave out " + option);
+}
+
 void check_places(const Request& request, const Given& given) {
   if (request.input == "-" ? !request.merged.empty()
                            : std::count(request.merged.begin(), request.merged.end(), "-") > 0)
@@ -67,6 +78,7 @@ void check_places(const Request& request, const Given& given) {
 }  // namespace
 
 void check_combination(const Request& request, const Given& given) {
+  check_window(request, given);
   check_places(request, given);
   check_thresholds(request, given);
   check_conversion(request, given);

@@ -122,6 +122,8 @@ int Conversion::write() {
   report::RunFacts facts{request_.from_stdin ? "-" : request_.input, request_.to_stdout ? "-" : plan_.path,
                          call_.arguments, status(), even_};
   facts.volumes = adapter::count_volume_elements();
+  facts.division = opened_.division;
+  facts.mended = opened_.even;
   facts.open_seconds = opened_.open_seconds;
   facts.mesh_seconds = opened_.mesh_seconds;
   facts.write_seconds = seconds_since(write_start);

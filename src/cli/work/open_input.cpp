@@ -63,7 +63,8 @@ adapter::OpenedModel open_for_conversion(const Call& call, const adapter::Output
   adapter::OpenedModel opened = open_input(call, {.merged = request.merged,
                                                   .background = request.background,
                                                   .no_meshing = request.no_meshing,
-                                                  .ignore_periodicity = request.ignore_periodicity});
+                                                  .ignore_periodicity = request.ignore_periodicity,
+                                                  .keep_curves = request.keep_curves});
   if (request.drop_volumes) adapter::drop_volumes();
   if (request.verbosity >= 1) name_ignored_options(request, opened, call.err);
   if (request.order_chosen) adapter::lower_model(static_cast<int>(adapter::get_option("Mesh.ElementOrder")));

@@ -96,6 +96,8 @@ void restore_links(const std::vector<PeriodicLink>& links) {
   }
   const NodePlaces places;
   const ScopedOption read_them("Mesh.IgnorePeriodicity", 0);
+  // Gmsh looks for the nodes of entities that are no images of others, and complains where it has no library for that.
+  const ScopedOption errors_only("General.Verbosity", 1);
   const StageLog log = run_logged([&] { ::gmsh::merge(file.path()); });
   if (!log.errors.empty()) throw InputError("Gmsh cannot keep the periodic surfaces: " + first_errors(log));
   places.restore();

@@ -34,27 +34,33 @@ bool has_parameters(int surface) {
   return low.size() == 2 && high.size() == 2 && low[0] < high[0] && low[1] < high[1];
 }
 
-/// Surfaces with `Recombine Surface`. No call of 4.8 tells, but the model written as a script does.
-std::vector<int> flagged_surfaces() {
+/// Surfaces with `Recombine Surface` and `Transfinite Surface`.
+struct Flags {
+  std::set<int> recombined, transfinite;
+};
+
+/// No call of 4.8 tells, but the model written as a script does. It does not have facets.
+Flags read_flags() {
   const ScratchFile script(".geo_unrolled");
   run_logged([&] { ::gmsh::write(script.path()); });
   std::ifstream in(script.path());
-  static const std::regex statement(R"(^\s*Recombine Surface \{([^}]*)\})");
+  static const std::regex statement(R"(^\s*(Recombine|Transfinite) Surface \{([^}]*)\})");
   static const std::regex number(R"(\d+)");
-  std::set<int> tags;
+  Flags flags;
   for (std::string line; std::getline(in, line);) {
     std::smatch match;
     if (!std::regex_search(line, match, statement)) continue;
-    const std::string list = match[1];
+    std::set<int>& tags = match[1] == "Recombine" ? flags.recombined : flags.transfinite;
+    const std::string list = match[2];
     for (std::sregex_iterator it(list.begin(), list.end(), number), end; it != end; ++it)
       tags.insert(std::stoi(it->str()));
   }
-  return {tags.begin(), tags.end()};
+  return flags;
 }
 
 /// Lets Gmsh recombine what is structured and pair nothing elsewhere: with the simple algorithm an angle below 0
 /// accepts no pair (0 still accepts some, the worst ones).
-void forbid_pairing(const std::vector<int>& surfaces) {
+void forbid_pairing(const std::set<int>& surfaces) {
   const ScratchFile script(".geo");
   {
     std::ofstream out(script.path());
@@ -132,8 +138,61 @@ void clear_facets(const std::vector<int>& surfaces) {
 }
 
 /// Requests for homology are answered after each dimension, and before there are elements with a complaint.
-void forgive_homology(StageLog& log) {
-  std::erase_if(log.errors, [](const std::string& error) { return error.find("Cell Complex is empty") == 0; });
+bool is_forgiven(const std::string& error) { return error.find("Cell Complex is empty") == 0; }
+
+/// Curves that Gmsh complains about.
+std::set<int> curves_in(const StageLog& log) {
+  static const std::regex name(R"(curve (\d+))");
+  std::set<int> curves;
+  for (const std::string& error : log.errors)
+    for (std::sregex_iterator it(error.begin(), error.end(), name), end; it != end; ++it)
+      curves.insert(std::stoi((*it)[1]));
+  return curves;
+}
+
+/// An even number for each curve by itself: what Gmsh does before its own recombination.
+void divide_evenly() {
+  const ScopedOption all("Mesh.RecombineAll", 1);
+  ::gmsh::model::mesh::generate(1);
+}
+
+/// Curves, then surfaces. Gmsh's mesher fails at times for one number of segments and not for the next: then the curves
+/// that it names keep the number that Gmsh gives them, and in the end each is made even by itself.
+StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
+                  DivisionReport& division) {
+  constexpr int kAttempts = 3;
+  DivisionTask curves{task.bare, {keep_curves.begin(), keep_curves.end()}, flags.transfinite};
+  curves.surfaces.insert(curves.surfaces.end(), task.facets.begin(), task.facets.end());
+  for (int attempt = 0;; ++attempt) {
+    const bool fitting = attempt < kAttempts && !task.kept_on_geometry && !task.compounds;
+    division = {};
+    const StageLog log = run_logged([&] {
+      const RecombinationOff off;
+      if (fitting) division = divide_curves(curves);
+      if (!division.understood) divide_evenly();
+      if (!flags.recombined.empty()) forbid_pairing(flags.recombined);
+      ::gmsh::model::mesh::generate(2);
+    });
+    run_logged([&] { forget_division(division); });
+    if (!fitting || std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) return log;
+    const std::set<int> named = curves_in(log);
+    const std::size_t before = curves.kept_curves.size();
+    curves.kept_curves.insert(named.begin(), named.end());
+    if (curves.kept_curves.size() == before) attempt = kAttempts;  // nothing else to try
+  }
+}
+
+/// Gmsh may have divided curves further while it meshed the surfaces.
+EvenReport mend_parity(const MeshingTask& task, const DivisionReport& division, const std::vector<int>& keep_curves) {
+  std::vector<int> odd;
+  for (const std::vector<int>* surfaces : {&task.bare, &task.facets})
+    for (int surface : *surfaces)
+      if (has_odd_boundary(surface)) odd.push_back(surface);
+  if (odd.empty()) return {};
+  std::vector<int> surfaces = task.bare, keep = keep_curves;
+  surfaces.insert(surfaces.end(), task.facets.begin(), task.facets.end());
+  keep.insert(keep.end(), division.fixed.begin(), division.fixed.end());
+  return session::make_even(surfaces, keep);
 }
 
 }  // namespace
@@ -154,33 +213,29 @@ MeshingTask find_meshing_task(bool taken_as_it_is) {
   return task;
 }
 
-std::vector<std::string> mesh_surfaces(const MeshingTask& task) {
+MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_curves) {
   check_common_curves(task);
   const ScopedOption linear("Mesh.ElementOrder", 1);  // raised when the quads are there
   const ScopedOption only_empty("Mesh.MeshOnlyEmpty", task.kept_on_geometry ? 1 : get_option("Mesh.MeshOnlyEmpty"));
   if (task.kept_on_geometry) clear_facets(task.facets);
-  const bool all = get_option("Mesh.RecombineAll") != 0 || get_option("Mesh.SubdivisionAlgorithm") == 1;
-  // The model written as a script, which tells what is flagged, does not have facets.
-  std::vector<int> flagged = all ? task.bare : flagged_surfaces();
-  std::erase_if(flagged, [&](int tag) { return std::count(task.kept.begin(), task.kept.end(), tag) > 0; });
-  flagged.insert(flagged.end(), task.facets.begin(), task.facets.end());
+  Flags flags = read_flags();
+  if (get_option("Mesh.RecombineAll") != 0 || get_option("Mesh.SubdivisionAlgorithm") == 1)
+    flags.recombined.insert(task.bare.begin(), task.bare.end());
+  for (int tag : task.kept) flags.recombined.erase(tag);
+  flags.recombined.insert(task.facets.begin(), task.facets.end());
 #if !QMORPH_GMSH_AT_LEAST(4, 9)
   // Frontal-Delaunay for quads crashes in a Gmsh without the ANN library, like Debian's, unless it needs no neighbours.
   if (get_option("Mesh.Algorithm") == 8) set_option("Mesh.CrossFieldClosestPoint", 0);
 #endif
-  StageLog log = run_logged([&] {
-    const RecombinationOff off;
-    set_option("Mesh.RecombineAll", 1);
-    ::gmsh::model::mesh::generate(1);
-    set_option("Mesh.RecombineAll", 0);
-    if (!flagged.empty()) forbid_pairing(flagged);
-    ::gmsh::model::mesh::generate(2);
-  });
-  forgive_homology(log);
+  MeshedModel meshed;
+  StageLog log = generate(task, flags, keep_curves, meshed.division);
+  std::erase_if(log.errors, is_forgiven);
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
+  meshed.warnings = log.warnings;
   const std::vector<std::string> bare = check_every_surface_has_elements(log);
-  log.warnings.insert(log.warnings.end(), bare.begin(), bare.end());
-  return log.warnings;
+  meshed.warnings.insert(meshed.warnings.end(), bare.begin(), bare.end());
+  if (meshed.division.understood) meshed.even = mend_parity(task, meshed.division, keep_curves);
+  return meshed;
 }
 
 int order_of_surfaces() {

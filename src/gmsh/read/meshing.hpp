@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "gmsh/divide/divide.hpp"
 #include "gmsh/session/session.hpp"
+#include "qmorph/gmsh.hpp"
 
 namespace qmorph::adapter {
 
@@ -15,6 +17,7 @@ struct MeshingTask {
   std::vector<int> facets;        ///< surfaces made of facets (CreateGeometry): their elements are the geometry
   std::vector<int> kept;          ///< surfaces whose elements stay
   bool kept_on_geometry = false;  ///< some of `kept` would be meshed again if Gmsh were not told
+  bool compounds = false;         ///< there are some, inside which Gmsh divides curves as it likes
 
   bool is_empty() const { return bare.empty() && facets.empty(); }
 };
@@ -22,10 +25,17 @@ struct MeshingTask {
 /// \param taken_as_it_is of a .msh file: facets with a geometry are its mesh
 MeshingTask find_meshing_task(bool taken_as_it_is);
 
+/// What came of it.
+struct MeshedModel {
+  std::vector<std::string> warnings;  ///< of Gmsh
+  DivisionReport division;
+  EvenReport even;  ///< where the curves have not been enough
+};
+
 /// Meshes those surfaces of the current model; see `open_model`.
+/// \param keep_curves tags of curves that get the number of segments that Gmsh gives them
 /// \throws InputError with Gmsh's own words
-/// \return Gmsh's warnings
-std::vector<std::string> mesh_surfaces(const MeshingTask& task);
+MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_curves);
 
 /// Gmsh's number of "Blossom": any pairing but the simple one makes it divide curves evenly.
 inline constexpr double kBlossomPairing = 1;

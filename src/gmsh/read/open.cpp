@@ -189,13 +189,19 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   opened.open_seconds = seconds_since(start);
   if (options.when_read) options.when_read();
 
-  const MeshingTask task = find_meshing_task(opened.msh.version != 0);
+  std::vector<std::string> scripts = opened.sources;
+  scripts.push_back(path);
+  opened.compounds = name_compounds(scripts);
+  MeshingTask task = find_meshing_task(opened.msh.version != 0);
+  task.compounds = opened.compounds;
   opened.had_mesh = opened.msh.version != 0 || !task.kept.empty();
   if (opened.had_mesh) opened.views = read_views(merged_data);  // else they say what size elements are to have
   if (task.is_empty() || options.no_meshing) return opened;
   start = std::chrono::steady_clock::now();
-  const std::vector<std::string> warnings = mesh_surfaces(task);
-  opened.warnings.insert(opened.warnings.end(), warnings.begin(), warnings.end());
+  MeshedModel meshed = mesh_surfaces(task, options.keep_curves);
+  opened.warnings.insert(opened.warnings.end(), meshed.warnings.begin(), meshed.warnings.end());
+  opened.division = std::move(meshed.division);
+  opened.even = std::move(meshed.even);
   opened.meshed = true;
   opened.mesh_seconds = seconds_since(start);
   return opened;

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "gmsh/divide/divide.hpp"
 #include "gmsh/read/msh/file.hpp"
 #include "gmsh/read/msh/msh2_groups.hpp"
 #include "gmsh/views/views.hpp"
+#include "qmorph/gmsh.hpp"
 
 namespace qmorph::adapter {
 
@@ -22,10 +24,13 @@ inline constexpr int kDefaultAlgorithm = 6;
 struct OpenedModel {
   MshHeader msh;                                 ///< version 0: not a .msh file
   bool had_mesh = false;                         ///< surfaces have elements from a file, not from Gmsh's mesher
+  bool compounds = false;                        ///< a script makes some
   bool meshed = false;                           ///< by Gmsh, something
   Msh2Origin origin;                             ///< of a file of MSH 2 that had to be taken apart
   MeshData views;                                ///< data on the mesh of the file
   std::optional<std::vector<ViewStep>> carried;  ///< `views` on the quads, if that has been done already
+  DivisionReport division;                       ///< of the curves, where Gmsh has meshed them
+  EvenReport even;                               ///< what else was divided then
   std::vector<std::string> warnings;
   std::vector<std::string> sources;  ///< files that Gmsh has said it reads
   double open_seconds = 0, mesh_seconds = 0;
@@ -37,12 +42,13 @@ struct OpenOptions {
   std::string background{};           ///< file with a view that says what sizes elements have, or empty
   bool no_meshing = false;            ///< surfaces without elements stay so
   bool ignore_periodicity = false;    ///< of the file
+  std::vector<int> keep_curves{};     ///< that get as many segments as Gmsh gives them
   std::function<void()> when_read{};  ///< called once all is read and before Gmsh meshes; may be empty
 };
 
 /// Opens a file with Gmsh and meshes surfaces that have a geometry and no elements yet, or whose geometry is made of
-/// facets: curves with an even number of segments first, so that surfaces can become quads without a triangle left;
-/// then surfaces with triangles. A .msh file with facets that have a geometry is taken as it is. Surfaces that the
+/// facets: curves first, divided so that surfaces can become quads without a triangle left (divide.hpp); then surfaces
+/// with triangles. A .msh file with facets that have a geometry is taken as it is. Surfaces that the
 /// script wants transfinite or extruded *and* recombined come as quads.
 /// \throws InputError with Gmsh's own words if the file cannot be opened, understood, or meshed.
 OpenedModel open_model(const std::string& path, const OpenOptions& options = {});

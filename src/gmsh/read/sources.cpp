@@ -58,6 +58,16 @@ std::vector<std::string> files_read(const StageLog& log) {
   return files;
 }
 
+bool name_compounds(const std::vector<std::string>& files) {
+  static const std::regex statement(R"(\bCompound\s+(Curve|Line|Surface)\b)");
+  return std::any_of(files.begin(), files.end(), [](const std::string& file) {
+    if (is_mesh_file(file) || is_cad_file(file) || !is_file(file)) return false;
+    std::ifstream in(file, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    return std::regex_search(text, statement);
+  });
+}
+
 std::vector<std::string> with_named_files(const std::vector<std::string>& files) {
   std::vector<std::string> open(files.rbegin(), files.rend()), all;
   const auto same = [](const std::string& a, const std::string& b) {

@@ -20,4 +20,7 @@ std::vector<std::string> with_named_files(const std::vector<std::string>& files)
 /// mistake.
 std::string make_rule(const std::string& target, const std::vector<std::string>& files);
 
+/// True if a script among the files makes a compound of curves or surfaces, which no call of Gmsh tells.
+bool name_compounds(const std::vector<std::string>& files);
+
 }  // namespace qmorph::adapter

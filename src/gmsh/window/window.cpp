@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/window/window.hpp"
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,7 +37,28 @@ bool is_set(const char* variable) {
   ::_exit(log.errors.empty() ? 0 : kNoWindow);
 }
 
+/// In the child process, which says nothing. Never returns.
+[[noreturn]] void try_window() {
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  ::dup2(nowhere, STDERR_FILENO);
+  const StageLog log = run_logged([] { ::gmsh::fltk::initialize(); });
+  ::_exit(log.errors.empty() ? 0 : kNoWindow);
+}
+
 }  // namespace
+
+std::string find_no_window() {
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
+    return "there is no display to open a window on (DISPLAY is not set)";
+  const ::pid_t child = ::fork();
+  if (child < 0) return "no process can be started to try whether there is a window";
+  if (child == 0) try_window();
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoWindow) return "this Gmsh was built without its window";
+  return "no window can be opened on the display (DISPLAY, WAYLAND_DISPLAY)";
+}
 
 std::string show_in_window(const std::string& path) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))

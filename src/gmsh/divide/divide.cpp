@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gmsh/divide/divide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "gmsh/divide/bands.hpp"
+#include "gmsh/divide/curves.hpp"
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
+#include "parity/intervals.hpp"
+#include "parity/unknowns.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+using Eigen::Vector3d;
+using parity::IntervalPlan;
+using parity::IntervalProblem;
+
+/// True if embedded curves cut a surface into regions, or cut off one: each of which has a boundary of its own.
+bool is_divided(const CurveModel& model, const BoundedSurface& surface) {
+  std::vector<int> points;
+  for (const std::vector<Index>* curves : {&surface.boundary, &surface.embedded})
+    for (Index c : *curves) points.insert(points.end(), model.curves[c].ends.begin(), model.curves[c].ends.end());
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  parity::Sets joined(points.size());
+  const auto place = [&](int point) {
+    return Index(std::lower_bound(points.begin(), points.end(), point) - points.begin());
+  };
+  for (Index c : surface.boundary) joined.unite(place(model.curves[c].ends[0]), place(model.curves[c].ends[1]));
+  for (Index c : surface.embedded) {
+    const Index a = place(model.curves[c].ends[0]), b = place(model.curves[c].ends[1]);
+    if (joined.root(a) == joined.root(b)) return true;
+    joined.unite(a, b);
+  }
+  return false;
+}
+
+IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const std::set<Index>& stubborn) {
+  constexpr int kFew = 4;
+  constexpr double kMostFewer = 0.75;
+  IntervalProblem problem;
+  for (Index c = 0; c < model.curves.size(); ++c) {
+    const DividedCurve& curve = model.curves[c];
+    parity::CurveWish wish;
+    wish.segments = curve.segments;
+    wish.wish = curve.wish();
+    wish.least = curve.segments <= kFew ? curve.segments : std::max(kFew, int(std::ceil(kMostFewer * curve.segments)));
+    wish.fixed = !curve.depends_on_size() || task.kept_curves.count(curve.tag) || stubborn.count(c);
+    problem.curves.push_back(wish);
+  }
+  for (const BoundedSurface& surface : model.surfaces) {
+    problem.surfaces.push_back(surface.boundary);
+    if (task.structured.count(surface.tag))
+      for (Index c : surface.boundary) problem.curves[c].fixed = true;
+  }
+  for (const BoundedSurface& surface : model.surfaces)
+    if (is_divided(model, surface))  // each curve by itself, so that it does not matter which of them is around what
+      for (const std::vector<Index>* curves : {&surface.boundary, &surface.embedded})
+        for (Index c : *curves) problem.surfaces.push_back({c});
+  problem.images = model.images;
+  problem.bands = find_bands(model);
+  return problem;
+}
+
+/// Parameters that cut a curve into so many segments, each as long as the sizes along it say.
+std::vector<double> parameters_for(const DividedCurve& curve, int segments) {
+  std::vector<double> parameters;
+  for (int i = 1; i < segments; ++i) {
+    const double at = double(i) * curve.finer / segments;
+    const auto below = std::size_t(at);
+    const double t = at - double(below);
+    parameters.push_back(curve.parameters[below] + t * (curve.parameters[below + 1] - curve.parameters[below]));
+  }
+  return parameters;
+}
+
+/// Gmsh has spread the nodes evenly; moves them to where the sizes want them.
+void place_nodes(const DividedCurve& curve, int segments) {
+  const std::vector<std::pair<double, std::size_t>> nodes = nodes_along(curve.tag);
+  const std::vector<double> parameters = parameters_for(curve, segments);
+  std::vector<double> xyz;
+  if (nodes.size() != parameters.size()) return;
+  ::gmsh::model::getValue(1, curve.tag, parameters, xyz);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    ::gmsh::model::mesh::setNode(nodes[i].second, {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}, {parameters[i]});
+}
+
+/// What Gmsh has been told of a curve. It would forget that it extrudes it, besides.
+void undo(const DividedCurve& curve) {
+  if (curve.carried)
+    ::gmsh::model::mesh::setTransfiniteCurve(curve.tag, curve.segments + 1);
+  else
+    ::gmsh::model::mesh::removeConstraints({{1, curve.tag}});
+}
+
+/// Divides the curves as planned. \return those that Gmsh divides otherwise
+std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
+  std::set<Index> changed, stubborn;
+  for (Index c = 0; c < model.curves.size(); ++c)
+    if (plan.segments[c] != model.curves[c].segments) changed.insert(c);
+  if (changed.empty()) return {};
+  for (Index c : changed) ::gmsh::model::mesh::setTransfiniteCurve(model.curves[c].tag, plan.segments[c] + 1);
+  ::gmsh::model::mesh::generate(1);
+  for (Index c = 0; c < model.curves.size(); ++c)
+    if (count_segments(model.curves[c].tag) != plan.segments[c]) stubborn.insert(c);
+  if (stubborn.empty())
+    for (Index c : changed) place_nodes(model.curves[c], plan.segments[c]);
+  else
+    for (Index c : changed) undo(model.curves[c]);
+  return stubborn;
+}
+
+DivisionReport report_on(const CurveModel& model) {
+  DivisionReport report;
+  report.understood = true;
+  for (const DividedCurve& curve : model.curves)
+    if (!curve.depends_on_size() && curve.segments > 1) report.fixed.push_back(curve.tag);
+  return report;
+}
+
+void add_changes(const CurveModel& model, const IntervalPlan& plan, DivisionReport& report) {
+  for (Index c = 0; c < model.curves.size(); ++c) {
+    const DividedCurve& curve = model.curves[c];
+    if (plan.segments[c] == curve.segments) continue;
+    (plan.segments[c] > curve.segments ? report.more : report.fewer).push_back(curve.tag);
+    if (!curve.carried) report.told.push_back(curve.tag);
+  }
+}
+
+}  // namespace
+
+bool has_odd_boundary(int surface) {
+  ::gmsh::vectorpair boundary;
+  ::gmsh::model::getBoundary({{2, surface}}, boundary, false, false);
+  int segments = 0;
+  for (const auto& [dim, curve] : boundary) segments += count_segments(curve);
+  return segments % 2 != 0;
+}
+
+void forget_division(const DivisionReport& report) {
+  ::gmsh::vectorpair entities;
+  for (int curve : report.told) entities.emplace_back(1, curve);
+  if (!entities.empty()) ::gmsh::model::mesh::removeConstraints(entities);
+}
+
+DivisionReport divide_curves(const DivisionTask& task) {
+  constexpr int kRounds = 4;
+  constexpr double kSimplePairing = 0;  // the only one of Gmsh's ways to recombine for which numbers may be odd
+  const ScopedOption all("Mesh.RecombineAll", 0), algorithm("Mesh.RecombinationAlgorithm", kSimplePairing);
+  const std::optional<CurveModel> model = divide_as_wished(task.surfaces);
+  if (!model) return {};
+  DivisionReport report = report_on(*model);
+  std::set<Index> stubborn;
+  for (int round = 0; round < kRounds; ++round) {
+    const IntervalPlan plan = parity::plan_intervals(pose(*model, task, stubborn));
+    const std::set<Index> others = carry_out(*model, plan);
+    stubborn.insert(others.begin(), others.end());
+    if (!others.empty()) continue;
+    add_changes(*model, plan, report);
+    for (Index s : plan.odd)
+      if (s < model->surfaces.size()) report.odd_surfaces.push_back(model->surfaces[s].tag);
+    return report;
+  }
+  ::gmsh::model::mesh::generate(1);
+  return report;
+}
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// Curves of a geometry, divided so that the surfaces between them can be quads.
+
+#include <set>
+#include <vector>
+
+namespace qmorph::adapter {
+
+/// What is to be meshed, and what must stay as Gmsh would have it.
+struct DivisionTask {
+  std::vector<int> surfaces;   ///< to be meshed
+  std::set<int> kept_curves;   ///< of which Gmsh's own number stays
+  std::set<int> structured{};  ///< transfinite surfaces: their curves' numbers stay
+};
+
+/// By tags, in order.
+struct DivisionReport {
+  bool understood = false;        ///< there is no compound, for one
+  std::vector<int> more, fewer;   ///< curves that got more or fewer segments than Gmsh gives them
+  std::vector<int> fixed;         ///< curves whose number does not depend on the size: transfinite, or of layers
+  std::vector<int> told;          ///< curves of which Gmsh has been told a number, and may forget it
+  std::vector<int> odd_surfaces;  ///< by their curves
+};
+
+/// Has Gmsh mesh the curves of the current model: with its own sizes and numbers, but for the least change that gives each
+/// surface an even boundary and curves that face each other across a band the same numbers. Where a curve gets another
+/// number than Gmsh gave it, its nodes still lie as its sizes are.
+/// \pre within run_logged()
+DivisionReport divide_curves(const DivisionTask& task);
+
+/// By the line elements of its curves.
+bool has_odd_boundary(int surface);
+
+/// Or Gmsh would keep to the numbers when it meshes the curves again. Those of extruded curves it keeps: it would forget
+/// that they are.
+void forget_division(const DivisionReport& report);
+
+}  // namespace qmorph::adapter

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// From a geometry: how many segments each curve gets.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gmsh/session/compat.hpp"
+#include "gmsh/session/session.hpp"
+#include "gmsh/support.hpp"
+#include "support/rng.hpp"
+
+using namespace qmorph;
+using namespace qmorph::test;
+
+namespace {
+
+const adapter::EntityMesh& curve(const Snapshot& snapshot, int tag) {
+  const adapter::EntityMesh* found = adapter::find_entity(snapshot.mesh, 1, tag);
+  REQUIRE(found);
+  return *found;
+}
+
+std::size_t segments(const Snapshot& snapshot, int tag) { return curve(snapshot, tag).element_count(); }
+
+/// In the order of the elements.
+std::vector<double> lengths(const Snapshot& snapshot, int tag) {
+  std::vector<double> all;
+  for (const auto& block : curve(snapshot, tag).blocks)
+    for (std::size_t i = 0; i < block.nodes.size(); i += 2) {
+      const auto& points = snapshot.mesh.points;
+      const auto& rows = snapshot.mesh.rows;
+      all.push_back((points[rows.find(block.nodes[i])] - points[rows.find(block.nodes[i + 1])]).norm());
+    }
+  return all;
+}
+
+struct Converted {
+  Snapshot snapshot;
+  double worst = 0;  ///< scaled Jacobian
+};
+
+Converted convert(const std::string& script, std::vector<std::string> more = {}) {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", script);
+  std::vector<std::string> words = {directory / "in.geo",   "-o",       directory / "out.msh", "--stats",
+                                    directory / "out.json", "-save_all"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Result result = run_qmorph(words);
+  CAPTURE(script);
+  CAPTURE(result.err);
+  REQUIRE(result.status == 0);
+  const auto total = nlohmann::json::parse(read_file(directory / "out.json"))["total"];
+  CHECK(total["triangles"] == 0);
+  return {read_snapshot(directory / "out.msh"), total["scaled_jacobian"]["min"]};
+}
+
+/// A thin ring between a disc and a ring of iron: its inner circle in `inner` arcs, its outer one in `outer`.
+std::string motor(int inner, int outer, double gap, double size, double turn) {
+  std::string script = "Point(1000) = {0, 0, 0};\n";
+  std::vector<std::string> loops;
+  int points = 0, arcs = 0;
+  const auto circle = [&](int count, double radius, double where) {
+    const int first_point = points + 1, first_arc = arcs + 1;
+    for (int k = 0; k < count; ++k) {
+      const double angle = 2 * M_PI * k / count + where;
+      script += fmt::format("Point({}) = {{{}, {}, 0, {}}};\n", ++points, radius * std::cos(angle),
+                            radius * std::sin(angle), size);
+    }
+    for (int k = 0; k < count; ++k)
+      script += fmt::format("Circle({}) = {{{}, 1000, {}}};\n", ++arcs, first_point + k, first_point + (k + 1) % count);
+    loops.push_back(fmt::format("{}", loops.size() + 1));
+    script += fmt::format("Curve Loop({}) = {{{}:{}}};\n", loops.size(), first_arc, arcs);
+  };
+  circle(inner, 1, 0);
+  circle(outer, 1 + gap, turn);
+  circle(4, 1.5, 0);
+  return script + "Plane Surface(1) = {1};\nPlane Surface(2) = {2, 1};\nPlane Surface(3) = {3, 2};\n";
+}
+
+}  // namespace
+
+TEST_CASE("divide: the two sides of a thin ring get as many segments, wherever they are cut") {
+  Rng rng(1);
+  for (int trial = 0; trial < 6; ++trial) {
+    const int inner = rng.range(3, 7), outer = rng.range(3, 7);
+    const double size = rng.between(0.03, 0.06), gap = rng.between(0.9, 1.1) * size;
+    CAPTURE(trial);
+    const auto [after, worst] = convert(motor(inner, outer, gap, size, rng.uniform()));
+    std::size_t one = 0, other = 0;
+    for (int k = 1; k <= inner + outer; ++k) (k <= inner ? one : other) += segments(after, k);
+    CHECK(one == other);
+    CHECK(worst > 0.55);
+  }
+}
+
+TEST_CASE("divide: ribs on a plate have no triangle and no poor quad") {
+  Rng rng(2);
+  for (int trial = 0; trial < 6; ++trial) {
+    CAPTURE(trial);
+    const int ribs = rng.range(2, 5);
+    const double base = rng.between(0.05, 0.1);
+    std::string script =
+        fmt::format("SetFactory(\"OpenCASCADE\");\nRectangle(1) = {{0, 0, 0, {}, {}}};\n", 0.4 * ribs, base);
+    for (int k = 0; k < ribs; ++k)
+      script += fmt::format("Rectangle({}) = {{{}, {}, 0, {}, {}}};\n", k + 2, 0.1 + 0.38 * k, base,
+                            rng.between(0.04, 0.08), rng.between(0.4, 1.0));
+    script +=
+        fmt::format("BooleanFragments{{Surface{{1}}; Delete;}}{{Surface{{2:{}}}; Delete;}}\nMeshSize{{:}} = {};\n",
+                    ribs + 1, rng.between(0.03, 0.05));
+    CHECK(convert(script).worst > 0.6);
+  }
+}
+
+TEST_CASE("divide: an edge shorter than the size stays one segment") {
+  const auto [after, worst] = convert(
+      "Point(1) = {0, 0, 0, 0.2}; Point(2) = {2, 0, 0, 0.2}; Point(3) = {2, 0.9, 0, 0.2}; Point(4) = {1.9, 1, 0, "
+      "0.2};\n"
+      "Point(5) = {0, 1, 0, 0.2};\nLine(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = "
+      "{5, 1};\n"
+      "Curve Loop(1) = {1:5}; Plane Surface(1) = {1};\n");
+  CHECK(segments(after, 3) == 1);
+  CHECK(worst > 0.4);
+}
+
+TEST_CASE("divide: a graded curve stays as graded with another number of segments") {
+  // 1 to 10 along the bottom. A kept curve at the top makes the sum odd or even.
+  const auto script = [](double top) {
+    return fmt::format(
+        "Point(1) = {{0, 0, 0, 0.02}}; Point(2) = {{2, 0, 0, 0.2}}; Point(3) = {{2, 1, 0, 0.2}}; Point(4) = {{0, {}, "
+        "0, 0.1}};\n"
+        "Line(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(3) = {{3, 4}}; Line(4) = {{4, 1}};\n"
+        "Curve Loop(1) = {{1:4}}; Plane Surface(1) = {{1}};\n",
+        top);
+  };
+  for (const double top : {0.8, 0.9, 1.0, 1.1}) {
+    CAPTURE(top);
+    const auto [after, worst] = convert(script(top));
+    const std::vector<double> along = lengths(after, 1);
+    CHECK(along.back() / along.front() > 5.5);
+    CHECK(along.back() / along.front() < 10);
+    for (std::size_t i = 1; i < along.size(); ++i) {
+      CHECK(along[i] / along[i - 1] > 0.98);
+      CHECK(along[i] / along[i - 1] < 1.25);
+    }
+  }
+}
+
+TEST_CASE("divide: curves that are to be kept have Gmsh's own number") {
+  // 7 + 5 + 7 + 6 and a hole of 5 + 5: one of all has to give way.
+  const std::string script =
+      "Point(1) = {0, 0, 0, 0.15}; Point(2) = {1, 0, 0, 0.15}; Point(3) = {1, 0.7, 0, 0.15}; Point(4) = {0, 0.85, 0, "
+      "0.15};"
+      "\nLine(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4};\n"
+      "Point(5) = {0.5, 0.35, 0}; Point(6) = {0.7, 0.35, 0, 0.15}; Point(7) = {0.3, 0.35, 0, 0.15};\n"
+      "Circle(5) = {6, 5, 7}; Circle(6) = {7, 5, 6}; Curve Loop(2) = {5, 6};\nPlane Surface(1) = {1, 2};\n";
+  const Snapshot free = convert(script).snapshot;
+  std::size_t odd_one_out = 0;
+  for (const char* kept : {"1", "2", "3", "4", "5", "6"}) {
+    const Snapshot after = convert(script, {"--all-quad", "--keep-curves", kept}).snapshot;
+    odd_one_out += segments(after, std::stoi(kept)) != segments(free, std::stoi(kept));
+  }
+  CHECK(odd_one_out == 1);
+}
+
+TEST_CASE("divide: regions that embedded curves cut off are even, each for itself") {
+  convert(
+      "Point(1) = {0, 0, 0, 0.15}; Point(2) = {2, 0, 0, 0.15}; Point(3) = {2, 1, 0, 0.15}; Point(4) = {0, 1, 0, "
+      "0.15};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1:4};\n"
+      "Plane Surface(1) = {1};\n"
+      "Point(5) = {0.5, 0.3, 0, 0.15}; Point(6) = {1.2, 0.3, 0, 0.15}; Point(7) = {0.8, 0.8, 0, 0.15};\n"
+      "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 5}; Line(8) = {1, 5}; Curve{5:8} In Surface{1};\n");
+}
