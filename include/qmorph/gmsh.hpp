@@ -38,11 +38,12 @@ struct OnGeometry {
   std::size_t nodes = 0;  ///< that are new or have moved, on it
   /// That stay on the triangles: an element would be spoiled, or there is no way to the geometry.
   std::size_t left = 0;
-  std::size_t straightened = 0;  ///< sides of elements of a higher order: curved, they would fold one
+  std::size_t moved_sides =
+      0;  ///< sides of elements of a higher order that are bent otherwise, or not at all: one would be folded
 
   std::size_t all() const { return nodes + left; }
-  bool any() const { return all() + straightened > 0; }
-  void add(const OnGeometry& other) { nodes += other.nodes, left += other.left, straightened += other.straightened; }
+  bool any() const { return all() + moved_sides > 0; }
+  void add(const OnGeometry& other) { nodes += other.nodes, left += other.left, moved_sides += other.moved_sides; }
 };
 
 /// One surface, before and after.

@@ -56,7 +56,7 @@ Json fidelity_json(const Fidelity& f) {
 }
 
 Json on_geometry_json(const OnGeometry& nodes) {
-  return {{"nodes", nodes.nodes}, {"left", nodes.left}, {"straightened", nodes.straightened}};
+  return {{"nodes", nodes.nodes}, {"left", nodes.left}, {"moved_sides", nodes.moved_sides}};
 }
 
 /// How many quads under 0.3 there are for each reason.

@@ -48,12 +48,12 @@ std::string distance(const Fidelity& fidelity) {
                      fidelity.centre.max);
 }
 
-/// "; nodes on the geometry but 3 of 90; 1 curved side made straight", as far as there is something to say.
+/// "; nodes on the geometry but 3 of 90; 1 side moved to unfold elements", as far as there is something to say.
 std::string on_geometry(const OnGeometry& nodes) {
   std::string said;
   if (nodes.all() > 0) said = "; nodes on the geometry";
   if (nodes.left > 0) said += fmt::format(" but {} of {}", nodes.left, nodes.all());
-  if (nodes.straightened > 0) said += fmt::format("; {} made straight", counted(nodes.straightened, "curved side"));
+  if (nodes.moved_sides > 0) said += fmt::format("; {} moved to unfold elements", counted(nodes.moved_sides, "side"));
   return said;
 }
 

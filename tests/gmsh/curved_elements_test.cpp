@@ -97,7 +97,7 @@ TEST_CASE("curved elements: on a geometry, all nodes come to lie on it") {
       const ModelReport report = session::recombine();
       CHECK(report.count(SurfaceOutcome::left) == 0);
       CHECK(report.on_geometry.left == 0);
-      CHECK(report.on_geometry.straightened == 0);
+      CHECK(report.on_geometry.moved_sides == 0);
       const adapter::ModelMesh mesh = adapter::read_model_mesh();
       check_elements(mesh, order);
       CHECK(farthest(mesh, solid) < 1e-9);
@@ -144,7 +144,7 @@ TEST_CASE("curved elements: raised by the command, all nodes lie on the geometry
   }
 }
 
-TEST_CASE("curved elements: a side that folds an element is made straight, unless it is given") {
+TEST_CASE("curved elements: a side that folds an element is made straight, and given ones are not") {
   const RunningGmsh gmsh;
   for (const double bow : {0.0, 0.5, -0.5}) {
     adapter::CurvedElements elements = two_squares(bow);
@@ -156,24 +156,47 @@ TEST_CASE("curved elements: a side that folds an element is made straight, unles
     adapter::CurvedElements elements = two_squares(bow);
     const Index middle = elements.element(0).sides[1];
     CHECK(elements.find_folded() == (bow > 0 ? 1 : 0));
-    elements.side(middle).is_given = true;
-    elements.unfold();
+    for (Index side = 0; side < elements.sides(); ++side) elements.side(side).is_given = true;
+    CHECK(elements.unfold() == 0);
     CHECK(elements.side(middle).nodes[0].place.x() == 1 + bow);
     CHECK(elements.find_folded() != kNone);
     elements.side(middle).is_given = false;
-    elements.side(middle).is_straight = false;
-    CHECK(elements.unfold() > 0);
+    CHECK(elements.unfold() == 1);
     CHECK(elements.side(middle).nodes[0].place == Vector3d(1, 0.5, 0));
     CHECK(elements.find_folded() == kNone);
   }
 }
 
+TEST_CASE("curved elements: where a given side folds an element, the side opposite follows it") {
+  const RunningGmsh gmsh;
+  for (const int order : {2, 3})
+    for (const bool turned : {false, true}) {  // which end of the side between the two comes first
+      CAPTURE(order);
+      CAPTURE(turned);
+      // A flat element under an arch that bulges into it, and a high one under that.
+      adapter::CurvedElements elements({{0, 1, 0}, {3, 1, 0}, {3, 1.4, 0}, {0, 1.4, 0}, {0, -1, 0}, {3, -1, 0}});
+      for (const std::size_t corners : {3, 4})
+        elements.set_type(adapter::element_type(adapter::type_number(corners, order, false)));
+      if (turned) elements.add_side(1, 0);
+      const Index flat = elements.add({0, 1, 2, 3}), high = elements.add({4, 5, 1, 0});
+      adapter::CurvedSide& arch = elements.side(elements.element(flat).sides[2]);
+      arch.is_given = true;
+      for (adapter::MiddleNode& node : arch.nodes) node.place.y() -= node.place.x() < 1.2 ? 0.5 : 0.45;
+      elements.fill(flat);
+      CHECK(elements.find_folded() == flat);
+      CHECK(elements.unfold() == 1);
+      CHECK(elements.find_folded() == kNone);
+      CHECK(elements.side(elements.element(flat).sides[0]).has_moved);
+      CHECK(!elements.is_folded(high));
+    }
+}
+
 TEST_CASE("curved elements: the summary tells what is straight, and what is not on the geometry") {
   ModelReport model;
   CHECK(report::total_line(model, "out.msh", 0).find("straight") == std::string::npos);
-  model.on_geometry = {.nodes = 90, .left = 3, .straightened = 1};
+  model.on_geometry = {.nodes = 90, .left = 3, .moved_sides = 1};
   CHECK(report::total_line(model, "out.msh", 0)
-            .find("; nodes on the geometry but 3 of 93; 1 curved side made straight;") != std::string::npos);
-  model.on_geometry = {.straightened = 2};
-  CHECK(report::total_line(model, "out.msh", 0).find("; 2 curved sides made straight;") != std::string::npos);
+            .find("; nodes on the geometry but 3 of 93; 1 side moved to unfold elements;") != std::string::npos);
+  model.on_geometry = {.moved_sides = 2};
+  CHECK(report::total_line(model, "out.msh", 0).find("; 2 sides moved to unfold elements;") != std::string::npos);
 }

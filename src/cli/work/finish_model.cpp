@@ -27,7 +27,7 @@ std::vector<std::string> finish_model(const Call& call, adapter::OpenedModel& op
   for (const std::string& what : volumes.told) call.warn(what);
   const adapter::RaisedModel raised = adapter::raise_model();
   note(raised.warnings);
-  model.on_geometry.straightened += raised.straightened;
+  model.on_geometry.moved_sides += raised.moved_sides;
   if (!opened.had_mesh) adapter::renumber();
   if (request.partitions > 0) {
     opened.carried = adapter::carry_over(opened.views);  // partitions take the elements from their surfaces

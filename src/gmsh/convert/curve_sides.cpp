@@ -112,11 +112,9 @@ void curve_sides(const ModelMesh& mesh, const Lander& lander, ConvertedSurface& 
     const SurfacePart& part = surface.surface.parts[p];
     const QuadMesh& result = surface.results[p];
     CurvedElements& elements = surface.curved.emplace_back(curve_result(mesh, before, part, result));
-    if (lander) {
-      Curving(part, result, lander, elements).run();
-      surface.on_geometry.straightened += elements.unfold();
-      count(elements, surface.on_geometry);
-    }
+    if (lander) Curving(part, result, lander, elements).run();
+    surface.on_geometry.moved_sides += elements.unfold();
+    if (lander) count(elements, surface.on_geometry);
     if (const std::string where = find_bent(elements); !where.empty())
       throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there",
                          {.kind = ErrorKind::no_valid_mesh});

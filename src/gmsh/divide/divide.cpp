@@ -50,6 +50,10 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const st
     wish.wish = curve.wish();
     wish.least = curve.segments <= kFew ? curve.segments : std::max(kFew, int(std::ceil(kMostFewer * curve.segments)));
     wish.fixed = !curve.depends_on_size() || task.kept_curves.count(curve.tag) || stubborn.count(c);
+    if (const auto given = task.given.find(curve.tag); given != task.given.end()) {
+      wish.segments = given->second;
+      wish.fixed = true;
+    }
     problem.curves.push_back(wish);
   }
   for (const BoundedSurface& surface : model.surfaces) {
@@ -125,6 +129,7 @@ DivisionReport report_on(const CurveModel& model) {
 void add_changes(const CurveModel& model, const IntervalPlan& plan, DivisionReport& report) {
   for (Index c = 0; c < model.curves.size(); ++c) {
     const DividedCurve& curve = model.curves[c];
+    report.segments[curve.tag] = plan.segments[c];
     if (plan.segments[c] == curve.segments) continue;
     (plan.segments[c] > curve.segments ? report.more : report.fewer).push_back(curve.tag);
     if (!curve.carried) report.told.push_back(curve.tag);
@@ -132,6 +137,13 @@ void add_changes(const CurveModel& model, const IntervalPlan& plan, DivisionRepo
 }
 
 }  // namespace
+
+std::map<int, int> find_divided_further(const DivisionReport& report) {
+  std::map<int, int> further;
+  for (const auto& [curve, segments] : report.segments)
+    if (const int now = count_segments(curve); now != segments) further[curve] = now;
+  return further;
+}
 
 bool has_odd_boundary(int surface) {
   ::gmsh::vectorpair boundary;

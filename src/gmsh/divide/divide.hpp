@@ -2,6 +2,7 @@
 #pragma once
 /// Curves of a geometry, divided so that the surfaces between them can be quads.
 
+#include <map>
 #include <set>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct DivisionTask {
   std::vector<int> surfaces;   ///< to be meshed
   std::set<int> kept_curves;   ///< of which Gmsh's own number stays
   std::set<int> structured{};  ///< transfinite surfaces: their curves' numbers stay
+  std::map<int, int> given{};  ///< curves that get this number of segments
 };
 
 /// By tags, in order.
@@ -21,6 +23,7 @@ struct DivisionReport {
   std::vector<int> fixed;         ///< curves whose number does not depend on the size: transfinite, or of layers
   std::vector<int> told;          ///< curves of which Gmsh has been told a number, and may forget it
   std::vector<int> odd_surfaces;  ///< by their curves
+  std::map<int, int> segments;    ///< of each curve
 };
 
 /// Has Gmsh mesh the curves of the current model: with its own sizes and numbers, but for the least change that gives each
@@ -28,6 +31,10 @@ struct DivisionReport {
 /// number than Gmsh gave it, its nodes still lie as its sizes are.
 /// \pre within run_logged()
 DivisionReport divide_curves(const DivisionTask& task);
+
+/// Curves that have another number of segments now, and that number: where the curves are too coarse for a surface, Gmsh
+/// divides some further.
+std::map<int, int> find_divided_further(const DivisionReport& report);
 
 /// By the line elements of its curves.
 bool has_odd_boundary(int surface);

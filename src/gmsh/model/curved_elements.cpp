@@ -77,11 +77,23 @@ Index CurvedElements::add_side(Index a, Index b) {
   return found->second;
 }
 
-void CurvedElements::straighten(CurvedSide& side) const {
+/// Where a node of the side is if that is straight.
+Vector3d CurvedElements::on_line(const CurvedSide& side, std::size_t node) const {
   const Vector3d &p = points_[side.ends[0]], &q = points_[side.ends[1]];
-  const auto steps = static_cast<double>(side.nodes.size() + 1);
+  return p + (q - p) * (static_cast<double>(node + 1) / static_cast<double>(side.nodes.size() + 1));
+}
+
+bool CurvedElements::is_bent(const CurvedSide& side) const {
+  constexpr double kStraight = 1e-9;  // of its length
+  const double length = (points_[side.ends[0]] - points_[side.ends[1]]).norm();
+  for (std::size_t i = 0; i < side.nodes.size(); ++i)
+    if ((side.nodes[i].place - on_line(side, i)).norm() > kStraight * length) return true;
+  return false;
+}
+
+void CurvedElements::straighten(CurvedSide& side) const {
   for (std::size_t i = 0; i < side.nodes.size(); ++i) {
-    side.nodes[i].place = p + (q - p) * (static_cast<double>(i + 1) / steps);
+    side.nodes[i].place = on_line(side, i);
     side.nodes[i].parameters = kNoParameters;
     side.nodes[i].is_landed = false;
   }
@@ -160,11 +172,7 @@ Index CurvedElements::find_folded() const {
   return kNone;
 }
 
-std::size_t CurvedElements::unfold() {
-  std::vector<std::vector<Index>> around(sides_.size());
-  for (Index e = 0; e < elements(); ++e)
-    for (const Index s : elements_[e].sides) around[s].push_back(e);
-  std::size_t straightened = 0;
+void CurvedElements::straighten_folded(const Around& around) {
   std::vector<Index> open;
   for (Index e = 0; e < elements(); ++e) open.push_back(e);
   while (!open.empty()) {
@@ -173,10 +181,9 @@ std::size_t CurvedElements::unfold() {
       if (elements_[e].is_kept || !is_folded(e)) continue;
       for (const Index s : elements_[e].sides) {
         CurvedSide& side = sides_[s];
-        if (side.is_given || side.is_straight) continue;
+        if (side.is_given || !is_bent(side)) continue;
         straighten(side);
-        side.is_straight = true;
-        ++straightened;
+        side.has_moved = true;
         changed.insert(changed.end(), around[s].begin(), around[s].end());
       }
       fill(e);
@@ -186,7 +193,45 @@ std::size_t CurvedElements::unfold() {
       if (!elements_[e].is_kept) fill(e);
     open = std::move(changed);
   }
-  return straightened;
+}
+
+/// Bends the side opposite a given one like that, as far as it takes.
+bool CurvedElements::follow_given_side(Index e, const Around& around) {
+  const CurvedElement& element = elements_[e];
+  for (std::size_t k = 0; element.sides.size() == 4 && k < 4; ++k) {
+    const CurvedSide& given = sides_[element.sides[k]];
+    const Index s = element.sides[(k + 2) % 4];
+    if (!given.is_given || sides_[s].is_given || !is_bent(given)) continue;
+    const CurvedSide before = sides_[s];
+    // Both sides, if seen in the element's direction, run against each other.
+    const bool same_way = (given.ends[0] == element.corners[k]) != (before.ends[0] == element.corners[(k + 2) % 4]);
+    for (const double part : {0.5, 0.75, 1.0, 0.25}) {
+      CurvedSide& side = sides_[s];
+      for (std::size_t i = 0; i < side.nodes.size(); ++i) {
+        const std::size_t j = same_way ? i : side.nodes.size() - 1 - i;
+        side.nodes[i].place = on_line(side, i) + part * (given.nodes[j].place - on_line(given, j));
+        side.nodes[i].parameters = kNoParameters;
+        side.nodes[i].is_landed = false;
+      }
+      for (const Index other : around[s]) fill(other);
+      side.has_moved = true;
+      if (std::none_of(around[s].begin(), around[s].end(), [&](Index other) { return is_folded(other); })) return true;
+    }
+    sides_[s] = before;
+    for (const Index other : around[s]) fill(other);
+  }
+  return false;
+}
+
+std::size_t CurvedElements::unfold() {
+  Around around(sides_.size());
+  for (Index e = 0; e < elements(); ++e)
+    for (const Index s : elements_[e].sides) around[s].push_back(e);
+  straighten_folded(around);
+  for (Index e = 0; e < elements(); ++e)
+    if (!elements_[e].is_kept && is_folded(e)) follow_given_side(e, around);
+  return static_cast<std::size_t>(
+      std::count_if(sides_.begin(), sides_.end(), [](const CurvedSide& side) { return side.has_moved; }));
 }
 
 }  // namespace qmorph::adapter

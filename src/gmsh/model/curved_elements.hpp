@@ -27,8 +27,8 @@ struct MiddleNode {
 struct CurvedSide {
   std::array<Index, 2> ends;
   std::vector<MiddleNode> nodes;
-  bool is_given = false;     ///< stays as it is
-  bool is_straight = false;  ///< has been made so
+  bool is_given = false;   ///< stays as it is
+  bool has_moved = false;  ///< from where it was, to unfold an element
 };
 
 struct CurvedElement {
@@ -65,20 +65,27 @@ class CurvedElements {
 
   /// At a node of it the element is turned over, or flat, compared with one that has straight sides.
   bool is_folded(Index element) const;
-  /// Straightens sides of folded elements, unless they are given, until none is folded or there is no such side.
-  /// \return how many
+  /// Straightens sides of folded elements, unless they are given. Where a given side folds one all the same, the side
+  /// opposite is bent like it. Some may stay folded.
+  /// \return how many sides have moved
   std::size_t unfold();
   /// The first folded element that is not kept, or kNone.
   Index find_folded() const;
 
  private:
+  using Vector3d = Eigen::Vector3d;
   /// An element of reference: derivatives of its functions at its nodes, and those of the corners' linear ones.
   struct Shape {
     ElementType type;
     std::vector<Eigen::Vector2d> slopes, linear_slopes;  ///< by node, then function
   };
   const Shape& shape(std::size_t corners) const { return shapes_[corners - 3]; }
+  using Around = std::vector<std::vector<Index>>;  ///< elements at a side
+  Vector3d on_line(const CurvedSide& side, std::size_t node) const;
+  bool is_bent(const CurvedSide& side) const;
   void straighten(CurvedSide& side) const;
+  void straighten_folded(const Around& around);
+  bool follow_given_side(Index element, const Around& around);
   std::vector<Eigen::Vector3d> places(Index element) const;
 
   std::vector<Eigen::Vector3d> points_;

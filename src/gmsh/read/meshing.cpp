@@ -152,45 +152,61 @@ std::set<int> curves_in(const StageLog& log) {
 
 /// An even number for each curve by itself: what Gmsh does before its own recombination.
 void divide_evenly() {
-  const ScopedOption all("Mesh.RecombineAll", 1);
+  const ScopedOption all("Mesh.RecombineAll", 1), algorithm("Mesh.RecombinationAlgorithm", kBlossomPairing);
   ::gmsh::model::mesh::generate(1);
 }
 
-/// Curves, then surfaces. Gmsh's mesher fails at times for one number of segments and not for the next: then the curves
-/// that it names keep the number that Gmsh gives them, and in the end each is made even by itself.
+std::vector<int> surfaces_of(const MeshingTask& task) {
+  std::vector<int> surfaces = task.bare;
+  surfaces.insert(surfaces.end(), task.facets.begin(), task.facets.end());
+  return surfaces;
+}
+
+/// Curves, then surfaces.
+StageLog generate(const Flags& flags, const DivisionTask* curves, DivisionReport& division) {
+  division = {};
+  return run_logged([&] {
+    const RecombinationOff off;
+    // A script that is merged makes Gmsh forget the numbers that it has been told.
+    if (!flags.recombined.empty()) forbid_pairing(flags.recombined);
+    if (curves) division = divide_curves(*curves);
+    if (!division.understood) divide_evenly();
+    ::gmsh::model::mesh::generate(2);
+  });
+}
+
+/// Gmsh's mesher fails at times for one number of segments and not for the next: then the curves that it names keep the
+/// number that Gmsh gives them. Others it divides further as it goes: then that is their number. In the end each curve is
+/// made even by itself.
 StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
                   DivisionReport& division) {
-  constexpr int kAttempts = 3;
-  DivisionTask curves{task.bare, {keep_curves.begin(), keep_curves.end()}, flags.transfinite};
-  curves.surfaces.insert(curves.surfaces.end(), task.facets.begin(), task.facets.end());
-  for (int attempt = 0;; ++attempt) {
-    const bool fitting = attempt < kAttempts && !task.kept_on_geometry && !task.compounds;
-    division = {};
-    const StageLog log = run_logged([&] {
-      const RecombinationOff off;
-      if (fitting) division = divide_curves(curves);
-      if (!division.understood) divide_evenly();
-      if (!flags.recombined.empty()) forbid_pairing(flags.recombined);
-      ::gmsh::model::mesh::generate(2);
-    });
+  constexpr int kAttempts = 4;
+  const std::vector<int> surfaces = surfaces_of(task);
+  DivisionTask curves{surfaces, {keep_curves.begin(), keep_curves.end()}, flags.transfinite};
+  if (task.kept_on_geometry || task.compounds) return generate(flags, nullptr, division);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const StageLog log = generate(flags, &curves, division);
     run_logged([&] { forget_division(division); });
-    if (!fitting || std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) return log;
+    if (std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) {
+      const std::map<int, int> further = find_divided_further(division);
+      const bool enough = further.empty() || std::none_of(surfaces.begin(), surfaces.end(), has_odd_boundary);
+      if (enough || attempt + 1 == kAttempts) return log;
+      for (const auto& [curve, segments] : further) curves.given[curve] = segments;
+      continue;
+    }
     const std::set<int> named = curves_in(log);
     const std::size_t before = curves.kept_curves.size();
     curves.kept_curves.insert(named.begin(), named.end());
-    if (curves.kept_curves.size() == before) attempt = kAttempts;  // nothing else to try
+    if (curves.kept_curves.size() == before) break;  // nothing else to try
   }
+  return generate(flags, nullptr, division);
 }
 
 /// Gmsh may have divided curves further while it meshed the surfaces.
 EvenReport mend_parity(const MeshingTask& task, const DivisionReport& division, const std::vector<int>& keep_curves) {
-  std::vector<int> odd;
-  for (const std::vector<int>* surfaces : {&task.bare, &task.facets})
-    for (int surface : *surfaces)
-      if (has_odd_boundary(surface)) odd.push_back(surface);
-  if (odd.empty()) return {};
-  std::vector<int> surfaces = task.bare, keep = keep_curves;
-  surfaces.insert(surfaces.end(), task.facets.begin(), task.facets.end());
+  const std::vector<int> surfaces = surfaces_of(task);
+  if (std::none_of(surfaces.begin(), surfaces.end(), has_odd_boundary)) return {};
+  std::vector<int> keep = keep_curves;
   keep.insert(keep.end(), division.fixed.begin(), division.fixed.end());
   return session::make_even(surfaces, keep);
 }
@@ -261,7 +277,7 @@ void move_middle_nodes(const CurvedElements& elements) {
     ::gmsh::model::mesh::setNode(node.tag, {node.place.x(), node.place.y(), node.place.z()}, {});
   };
   for (Index s = 0; s < elements.sides(); ++s)
-    if (elements.side(s).is_straight)
+    if (elements.side(s).has_moved)
       for (const MiddleNode& node : elements.side(s).nodes) move(node);
   for (Index e = 0; e < elements.elements(); ++e)
     for (const MiddleNode& node : elements.element(e).inside) move(node);
@@ -284,8 +300,8 @@ RaisedModel raise_model() {
   for (const EntityMesh& entity : mesh.entities) {
     if (entity.dim != 2) continue;
     CurvedElements elements = read_curved_elements(mesh, entity);
-    if (const std::size_t straightened = elements.unfold(); straightened > 0) {
-      raised.straightened += straightened;
+    if (const std::size_t moved_sides = elements.unfold(); moved_sides > 0) {
+      raised.moved_sides += moved_sides;
       move_middle_nodes(elements);
     }
     const std::string where = find_bent(elements);

@@ -51,7 +51,7 @@ struct RecombinationOff {
 struct RaisedModel {
   std::vector<std::string> warnings;  ///< of Gmsh
   std::vector<std::string> bent;      ///< surfaces whose curved edges turn an element over, and where
-  std::size_t straightened = 0;       ///< sides of elements that would turn one over
+  std::size_t moved_sides = 0;        ///< sides of elements, so that none is turned over
 };
 
 /// The largest one of an element; 1 without any.
