@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <array>
+#include <sstream>
 #include <variant>
 
 #include "qmorph/error.hpp"
@@ -55,17 +56,24 @@ void store(double value, int& field) { field = int(value); }
 void store(double value, bool& field) { field = value != 0; }
 void store(double value, std::size_t& field) { field = std::size_t(value); }
 
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 }  // namespace
 
 void set_option(Options& options, std::string_view name, double value) {
   for (const Name& row : kNames) {
     if (row.name != name) continue;
     if (!(value >= row.least && value <= row.most))
-      throw UsageError("--set " + std::string(name) + ": the value is out of range");
+      throw UsageError(std::string(name) + ": " + number(value) + " is out of range, which is " + number(row.least) +
+                       " to " + number(row.most));
     std::visit([&](auto* field) { store(value * row.unit, *field); }, row.field(options));
     return;
   }
-  throw UsageError("--set: there is no '" + std::string(name) + "'");
+  throw UsageError("there is no option '" + std::string(name) + "'");
 }
 
 double get_option(const Options& options, std::string_view name) {
@@ -73,7 +81,7 @@ double get_option(const Options& options, std::string_view name) {
   for (const Name& row : kNames)
     if (row.name == name)
       return std::visit([&](auto* field) { return static_cast<double>(*field) / row.unit; }, row.field(copy));
-  throw UsageError("--set: there is no '" + std::string(name) + "'");
+  throw UsageError("there is no option '" + std::string(name) + "'");
 }
 
 std::vector<std::string> option_names() {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "python/arrays.hpp"
 
+#include <algorithm>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "qmorph/error.hpp"
 
@@ -37,6 +40,23 @@ Numbers whole_numbers(const py::array& array, const char* name) {
 Index node_from(std::int64_t number, const char* name) {
   if (number < 0 || number >= std::int64_t(kNone)) refuse(name, "node numbers count from 0");
   return Index(number);
+}
+
+/// An edge that the mesh does not have cannot stay.
+void refuse_constraints_across(const Patch& patch) {
+  if (patch.constraints.empty()) return;
+  std::set<std::pair<Index, Index>> edges;
+  const auto add = [&](const auto& elements) {
+    for (const auto& element : elements)
+      for (std::size_t i = 0; i < element.size(); ++i)
+        edges.insert(std::minmax(element[i], element[(i + 1) % element.size()]));
+  };
+  add(patch.triangles);
+  add(patch.quads);
+  for (const auto& [a, b] : patch.constraints)
+    if (!edges.contains(std::minmax(a, b)))
+      throw UsageError("constraints: " + std::to_string(a) + " - " + std::to_string(b) + " is no edge of an element",
+                       {.place = patch.points[a]});
 }
 
 }  // namespace
@@ -95,14 +115,15 @@ Patch patch_from(const py::object& points, const py::object& triangles, const py
   };
   for (const auto& [a, b] : patch.constraints) check(a, "constraints"), check(b, "constraints");
   for (Index v : patch.fixed) check(v, "fixed");
+  refuse_constraints_across(patch);
   return patch;
 }
 
-py::dict arrays_of(QuadMesh&& mesh) {
-  // -1 says "new" better than the largest number that there is.
-  std::vector<std::int32_t> source(mesh.source.size());
+py::dict arrays_of(QuadMesh&& mesh, const std::vector<Eigen::Vector3d>& before) {
+  // Of a point that is where it was; what else there is to know of the input's points is not true of one that has moved.
+  std::vector<std::int32_t> source(mesh.source.size(), -1);
   for (std::size_t i = 0; i < source.size(); ++i)
-    source[i] = mesh.source[i] == kNone ? -1 : std::int32_t(mesh.source[i]);
+    if (mesh.source[i] != kNone && before[mesh.source[i]] == mesh.points[i]) source[i] = std::int32_t(mesh.source[i]);
   py::dict arrays;
   arrays["points"] = view_of<Eigen::Vector3d, double, 3>(std::move(mesh.points));
   arrays["quads"] = view_of<std::array<Index, 4>, Index, 4>(std::move(mesh.quads));

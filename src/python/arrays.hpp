@@ -36,7 +36,7 @@ pybind11::array view_of(std::vector<Row>&& rows) {
   return pybind11::array_t<Number>({count, pybind11::ssize_t(kColumns)}, data, owner);
 }
 
-/// "points", "quads", "triangles" and "source": views of what the mesh has held.
-pybind11::dict arrays_of(QuadMesh&& mesh);
+/// "points", "quads", "triangles" and "source": views of what the mesh has held. `before`: the input's points.
+pybind11::dict arrays_of(QuadMesh&& mesh, const std::vector<Eigen::Vector3d>& before);
 
 }  // namespace qmorph::python

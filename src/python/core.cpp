@@ -26,7 +26,7 @@ py::dict run(Function function, const Patch& patch, const py::dict& options, con
     accumulator.add(patch, conversion.mesh);
     quality = accumulator.result();
   });
-  py::dict result = python::arrays_of(std::move(conversion.mesh));
+  py::dict result = python::arrays_of(std::move(conversion.mesh), patch.points);
   result["report"] = python::dict_of(conversion.report);
   result["quality"] = python::dict_of(quality);
   return result;
@@ -88,4 +88,5 @@ PYBIND11_MODULE(_core, module) {
   module.def("measure", measure_arrays, "points"_a, "triangles"_a, "quads"_a);
   module.def("locate", locate_places, "places"_a, "points"_a, "triangles"_a);
   module.def("option_names", option_names);
+  module.attr("version") = QMORPH_VERSION;
 }

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "qmorph/error.hpp"
@@ -44,14 +45,15 @@ Options options_from(const py::dict& named) {
       options.smoothing.method = method_from(value);
     } else if (name == "threads") {
       const double count = number_from(name, value);
-      if (!(count >= 0 && count <= 1e6)) throw UsageError("threads: a number from 0 is wanted");
+      if (!(count >= 0 && count <= 1e6) || count != std::floor(count))
+        throw UsageError("threads: a whole number from 0 is wanted");
       options.threads = int(count);
     } else {
       const auto known = std::find_if(names.begin(), names.end(), [&](const std::string& one) {
         return one == name || as_written(one, '_') == name;
       });
       if (known == names.end())
-        throw UsageError("there is no option '" + name + "'; qmorph.option_names() has them all");
+        throw UsageError("there is no option '" + name + "'; help(qmorph) and qmorph.option_names() have them all");
       set_option(options, *known, number_from(name, value));
     }
   }

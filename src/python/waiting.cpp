@@ -33,6 +33,31 @@ struct Shared {
   }
 };
 
+/// False itself, or NumPy's. What else is false as a condition may be any function's result.
+bool is_false(const py::object& answer) {
+  const std::string type = py::str(py::type::handle_of(answer).attr("__name__"));
+  return (type == "bool" || type == "bool_") && PyObject_IsTrue(answer.ptr()) == 0;
+}
+
+/// Ends the work and waits for it, also where Python unwinds a thread of a process that ends.
+class Worker {
+ public:
+  Worker(Shared& shared, std::function<void()> work) : shared_(shared), thread_(std::move(work)) {}
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  ~Worker() {
+    {
+      const std::lock_guard lock(shared_.mutex);
+      shared_.ends = true;
+    }
+    thread_.join();
+  }
+
+ private:
+  Shared& shared_;
+  std::thread thread_;
+};
+
 /// What Python raises, kept until the work has ended.
 class Interruption {
  public:
@@ -43,7 +68,7 @@ class Interruption {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (progress.is_none() || share <= told) return false;
       told = share;
-      return progress(stage, share).is(py::bool_(false));
+      return is_false(progress(stage, share));
     } catch (py::error_already_set& error) {
       raised_.emplace(std::move(error));
       return true;
@@ -64,7 +89,7 @@ void work_while_waiting(const Options& options, const py::object& progress,
   Shared shared;
   Options own = options;
   own.progress = [&](std::string_view stage, double share) { return shared.tell(stage, share); };
-  std::thread worker([&] {
+  std::optional<Worker> worker(std::in_place, shared, [&] {
     std::exception_ptr error;
     try {
       work(own);
@@ -82,17 +107,20 @@ void work_while_waiting(const Options& options, const py::object& progress,
   for (bool is_done = false; !is_done;) {
     std::string stage;
     double share = 0;
+    // Not by an object whose destructor takes the lock: where the interpreter has ended, that ends the thread, which
+    // destructors do not survive.
+    PyThreadState* const python = PyEval_SaveThread();
     {
-      const py::gil_scoped_release released;
       std::unique_lock lock(shared.mutex);
       is_done = shared.changed.wait_for(lock, kLook, [&] { return shared.is_done; });
       stage = shared.stage, share = is_done && !shared.error ? 1 : shared.share;
     }
+    PyEval_RestoreThread(python);
     if (!interruption.look(progress, stage, share, told)) continue;
     const std::lock_guard lock(shared.mutex);
     shared.ends = true;
   }
-  worker.join();
+  worker.reset();
   interruption.rethrow();
   if (shared.error) std::rethrow_exception(shared.error);
 }

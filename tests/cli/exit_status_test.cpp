@@ -59,7 +59,7 @@ TEST_CASE("status 1: usage, before anything is opened") {
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "-foo"}), 1, "qmorph: unknown option '-foo'");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "-format", "foo"}), 1, "unknown format 'foo'");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--smoothing", "x"}), 1, "neither shape_energy nor thesis");
-  scene.expect(run_qmorph({scene.input, "-o", scene.output, "--set", "NO=1"}), 1, "--set: there is no 'NO'");
+  scene.expect(run_qmorph({scene.input, "-o", scene.output, "--set", "NO=1"}), 1, "--set: there is no option 'NO'");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--set", "cleanup.shape_angle=x"}), 1, "takes NAME=NUMBER");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--set", "cleanup.shape_angle=1e9"}), 1, "out of range");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--surfaces", "9"}), 1, "the model has no surface 9");

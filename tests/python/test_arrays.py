@@ -4,6 +4,8 @@ import os
 import pickle
 import resource
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -72,6 +74,13 @@ class Convert(unittest.TestCase):
         self.assertEqual(len(kept), boundary.sum())
         np.testing.assert_array_equal(mesh.points[kept, :2], points[mesh.source[kept]])
 
+    def test_a_point_with_a_source_is_where_it_was(self):
+        points, triangles = rough(20, 20)
+        mesh = qmorph.convert(points, triangles)
+        kept = mesh.source >= 0
+        self.assertTrue(kept.any() and not kept.all())
+        np.testing.assert_array_equal(mesh.points[kept, :2], points[mesh.source[kept]])
+
     def test_quads_that_are_there_stay(self):
         points, triangles = plate(4, 2)
         points = np.vstack([points, [[5, 0], [5, 1]]])
@@ -134,6 +143,8 @@ class Errors(unittest.TestCase):
             ((points, triangles), {"fixed": [99]}),
             ((points, triangles), {"fixed": [[1, 2]]}),
             ((points, triangles), {"constraints": [[0, 99]]}),
+            ((points, triangles), {"constraints": [[0, 15]]}),  # no edge of the mesh
+            ((points, triangles), {"threads": 1.5}),
             ((points, triangles), {"no_such_option": 1}),
             ((points, triangles), {"layers": "yes"}),
             ((points, triangles), {"MAXITER": -1}),
@@ -179,6 +190,22 @@ class Work(unittest.TestCase):
     def test_progress_can_end_it(self):
         with self.assertRaises(qmorph.Cancelled):
             qmorph.convert(*self.LARGE, progress=lambda stage, share: False)
+
+    def test_a_false_of_numpy_ends_it_and_other_results_do_not(self):
+        with self.assertRaises(qmorph.Cancelled):
+            qmorph.convert(*self.LARGE, progress=lambda stage, share: np.bool_(False))
+        self.assertTrue(len(qmorph.convert(*self.LARGE, progress=lambda stage, share: 0).quads))
+
+    def test_a_thread_of_a_process_that_ends_does_no_harm(self):
+        program = (
+            "import sys, threading, time; sys.path[:0] = %r\n"
+            "import qmorph\n"
+            "from test_arrays import rough\n"
+            "mesh = rough(500, 500)\n"
+            "threading.Thread(target=lambda: qmorph.convert(*mesh), daemon=True).start()\n"
+            "time.sleep(0.2)\n" % [os.path.dirname(os.path.abspath(__file__))] )
+        ran = subprocess.run([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True)
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""))
 
     def test_what_progress_raises_comes_out(self):
         def fail(stage, share):

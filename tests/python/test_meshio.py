@@ -55,6 +55,26 @@ class Meshio(unittest.TestCase):
         self.assertEqual(len(after.point_data["number"]), len(after.points))
         self.assertEqual(after.points.shape[1], 2)
 
+    def test_its_quads_are_those_of_the_arrays(self):
+        points, triangles = rough(9, 9)
+        points[11] += 0.1
+        mesh = qmorph.meshio.convert(meshio.Mesh(points, [("triangle", triangles)], point_data={"x": points[:, 0]}))
+        arrays = qmorph.convert(points, triangles)
+        self.assertEqual(
+            qmorph.measure(mesh.points, mesh.cells[0].data)["scaled_jacobian_min"], arrays.quality["scaled_jacobian_min"])
+        np.testing.assert_allclose(mesh.point_data["x"], mesh.points[:, 0], atol=1e-9)
+        self.assertEqual(set(np.unique(mesh.cells[0].data)), set(range(len(mesh.points))))  # no loose node
+
+    def test_numbers_of_cells_and_entities_around_them_part_nothing(self):
+        points, triangles = rough(8, 8)
+        mesh = meshio.Mesh(
+            points, [("triangle", triangles)], cell_data={"id": [np.arange(len(triangles))]},
+            cell_sets={"gmsh:bounding_entities": [np.array([1, -2, 3])]}, point_sets={"corner": np.array([0, 8])})
+        after = qmorph.meshio.convert(mesh)
+        self.assertEqual([block.type for block in after.cells], ["quad"])
+        np.testing.assert_array_equal(after.cell_sets["gmsh:bounding_entities"][0], [1, -2, 3])
+        np.testing.assert_array_equal(after.points[after.point_sets["corner"]], points[[0, 8]])
+
     def test_what_parts_regions_stays(self):
         before = two_materials()
         after = qmorph.meshio.convert(before)

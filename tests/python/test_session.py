@@ -83,6 +83,29 @@ class Session(unittest.TestCase):
         gmsh.initialize(["gmsh", "-v", "0"], False)
 
     @unittest.skipUnless("QMORPH_COMMAND" in os.environ, "needs the command")
+    def test_surfaces_may_be_pairs_of_dimension_and_tag(self):
+        report = qmorph.gmsh.recombine(gmsh.model.getEntities(2)[:1])
+        self.assertEqual(len(report.surfaces), 1)
+        for wrong in (1, [1.5], ["1"], [(1, 1)]):
+            with self.subTest(wrong=wrong), self.assertRaises(qmorph.UsageError):
+                qmorph.gmsh.recombine(wrong)
+
+    def test_one_call_at_a_time(self):
+        caught = []
+
+        def again(stage, share):
+            try:
+                qmorph.gmsh.recombine()
+            except qmorph.UsageError as error:
+                caught.append(str(error))
+
+        qmorph.gmsh.recombine(progress=again)
+        self.assertIn("in use", caught[0])
+
+    def test_a_model_without_a_mesh_gets_a_word(self):
+        gmsh.model.mesh.clear()
+        self.assertIn("generate(2)", qmorph.gmsh.recombine().warnings[0])
+
     def test_the_command_writes_the_same_bytes(self):
         with tempfile.TemporaryDirectory() as folder:
             mesh, ours, theirs = (os.path.join(folder, name) for name in ("in.msh", "ours.msh", "theirs.msh"))

@@ -18,7 +18,11 @@ void apply(const std::string& setting, Options& options) {
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
   if (value.empty() || *end) throw UsageError(fmt::format("--set {}: it takes NAME=NUMBER", setting));
-  set_option(options, setting.substr(0, equals), number);
+  try {
+    set_option(options, setting.substr(0, equals), number);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("--set: {}", error.what()));
+  }
 }
 
 }  // namespace

@@ -3,11 +3,17 @@
 
     gmsh.model.mesh.generate(2)
     qmorph.gmsh.recombine()
+
+Gmsh works for one thread at a time; a progress callback must leave the session alone. Gmsh up to 4.10 takes Ctrl-C for itself, which
+ends the process: signal.signal(signal.SIGINT, signal.default_int_handler) after gmsh.initialize() gives it back to Python.
 """
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Sequence
+import operator
+import threading
+from contextlib import contextmanager
+from typing import Any, Iterable, Iterator, List
 
 import gmsh as _gmsh  # the one of the session
 
@@ -16,42 +22,68 @@ from ._progress import Progress, callback_of
 from .errors import UsageError
 from .result import EvenReport, ModelReport, SurfaceReport
 
+_in_use = threading.Lock()  # a session is one for the whole process
+
 __all__ = ["improve_quads", "make_even", "measure_surfaces", "recombine"]
 
 
-def recombine(surfaces: Sequence[int] = (), *, progress: Progress = None, **options: Any) -> ModelReport:
+def recombine(surfaces: Iterable[int] = (), *, progress: Progress = None, **options: Any) -> ModelReport:
     """Turns the triangles of surfaces into quads, in place; all surfaces if none is named.
 
     Line elements, curve nodes, groups, entities and other surfaces stay as they are. A surface that cannot be converted is left as
     it was: ModelReport.left. Options: see help(qmorph); progress: see qmorph.convert().
     """
-    _require_session()
-    with callback_of(progress) as callback:
-        return _model_report(_session.recombine(list(surfaces), options, callback))
+    with _session_of_ours(), callback_of(progress) as callback:
+        return _model_report(_session.recombine(_tags(surfaces, 2), options, callback))
 
 
-def improve_quads(surfaces: Sequence[int] = (), *, progress: Progress = None, **options: Any) -> ModelReport:
+def improve_quads(surfaces: Iterable[int] = (), *, progress: Progress = None, **options: Any) -> ModelReport:
     """The same for surfaces that consist of quads already, or of quads and triangles: better ones."""
-    _require_session()
-    with callback_of(progress) as callback:
-        return _model_report(_session.improve_quads(list(surfaces), options, callback))
+    with _session_of_ours(), callback_of(progress) as callback:
+        return _model_report(_session.improve_quads(_tags(surfaces, 2), options, callback))
 
 
-def measure_surfaces(surfaces: Sequence[int] = ()) -> ModelReport:
+def measure_surfaces(surfaces: Iterable[int] = ()) -> ModelReport:
     """Figures of surfaces as they are; nothing changes."""
-    _require_session()
-    return _model_report(_session.measure_surfaces(list(surfaces)))
+    with _session_of_ours():
+        return _model_report(_session.measure_surfaces(_tags(surfaces, 2)))
 
 
-def make_even(surfaces: Sequence[int] = (), keep_curves: Sequence[int] = ()) -> EvenReport:
+def make_even(surfaces: Iterable[int] = (), keep_curves: Iterable[int] = ()) -> EvenReport:
     """Splits edges of curves so that every region gets an even number of sides: recombine() leaves no triangle then."""
-    _require_session()
-    return EvenReport(**_session.make_even(list(surfaces), list(keep_curves)))
+    with _session_of_ours():
+        return EvenReport(**_session.make_even(_tags(surfaces, 2), _tags(keep_curves, 1)))
 
 
 def _model_report(report: dict) -> ModelReport:
     surfaces = [SurfaceReport(**surface) for surface in report.pop("surfaces")]
+    if not surfaces:
+        report["warnings"].append("no surface has elements: gmsh.model.mesh.generate(2) comes first")
     return ModelReport(surfaces=surfaces, **report)
+
+
+def _tags(entities: Iterable[Any], dim: int) -> List[int]:
+    """Tags, or Gmsh's pairs of dimension and tag."""
+    kind = {1: "curves", 2: "surfaces"}[dim]
+    try:
+        pairs = [entity if isinstance(entity, (tuple, list)) else (dim, entity) for entity in entities]
+        tags = [operator.index(tag) for of, tag in pairs if of == dim]
+    except (TypeError, ValueError):
+        raise UsageError(f"{kind}: a list of tags is wanted, or of (dimension, tag), not {entities!r}") from None
+    if len(tags) != len(pairs):
+        raise UsageError(f"{kind}: all of them must be of dimension {dim}")
+    return tags
+
+
+@contextmanager
+def _session_of_ours() -> Iterator[None]:
+    _require_session()
+    if not _in_use.acquire(blocking=False):
+        raise UsageError("the session is in use by another call of qmorph.gmsh; Gmsh works for one thread at a time")
+    try:
+        yield
+    finally:
+        _in_use.release()
 
 
 def _require_session() -> None:
@@ -61,7 +93,14 @@ def _require_session() -> None:
             f"the gmsh module uses {_gmsh.lib._name}, another library than qmorph: two sessions that do not see each other; "
             "use the module of the system's Gmsh (Debian: python3-gmsh)"
         )
-    try:
-        _gmsh.option.getNumber("General.Verbosity")
-    except Exception:  # Gmsh 4.8 has no isInitialized()
-        raise UsageError("Gmsh has not been initialised: gmsh.initialize()") from None
+    if not _is_initialized():
+        raise UsageError("Gmsh has not been initialised: gmsh.initialize()")
+
+
+def _is_initialized() -> bool:
+    if hasattr(_gmsh, "isInitialized"):
+        return bool(_gmsh.isInitialized())
+    try:  # Gmsh 4.8 answers with nothing before its first initialize(), and with an error after finalize()
+        return _gmsh.option.getString("General.Version") != ""
+    except Exception:
+        return False

@@ -14,13 +14,17 @@ from .errors import UsageError
 
 __all__ = ["convert"]
 
+# What meshio keeps among the cell sets though its numbers are none of cells: tags of the entities around a block's.
+_NO_SETS = ("gmsh:bounding_entities",)
+
 
 def convert(mesh: "_meshio.Mesh", *, progress: Progress = None, **options: Any) -> "_meshio.Mesh":
     """The same mesh with quads in the place of its triangles.
 
     Triangles that differ in a cell set, or in cell data of integers (gmsh:physical, ...), are regions of their own, and what parts
-    them stays. Lines and vertices are kept by the mesh, too. Data at points is interpolated on the triangles; numbers of cells are
-    those of the triangle under a quad's centre. Cells of volumes and of higher order are not taken.
+    them stays; integers that number each triangle for itself part nothing. Lines and vertices are kept by the mesh, too. Data at points is interpolated on the triangles; numbers of cells are
+    those of the triangle under a quad's centre. Points that no cell uses any more go. Cells of volumes and of higher order are not
+    taken.
     Arguments, options and errors as those of qmorph.convert().
     """
     return _Conversion(mesh).run(progress, options)
@@ -46,7 +50,7 @@ class _Conversion:
         for label in range(count):
             rows = np.flatnonzero(labels == label)
             result = _convert(
-                self.points, self.triangles[rows], constraints=self._rows("line"), fixed=self._rows("vertex"),
+                self.points, self.triangles[rows], constraints=self._lines_on(self.triangles[rows]), fixed=self._rows("vertex"),
                 progress=progress, **options)
             number = result.source.astype(np.int64)
             new = number < 0
@@ -65,14 +69,26 @@ class _Conversion:
             return None
         return np.vstack(rows) if kind == "line" else np.vstack(rows).ravel()
 
+    def _lines_on(self, triangles: np.ndarray) -> Any:
+        """Lines that are edges of these triangles; others are none of the surface's."""
+        lines = self._rows("line")
+        if lines is None:
+            return None
+        edges = np.sort(np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+        count = len(self.points)
+        on = np.isin(np.sort(lines, axis=1) @ [count, 1], edges @ [count, 1])
+        return lines[on]
+
     def _labels(self) -> Tuple[np.ndarray, int]:
         """For each triangle the number of its region, in the order in which regions come."""
         columns = [np.concatenate([np.full(len(self.mesh.cells[b].data), b) for b in self.blocks] or [np.empty(0, int)])]
         for data in self.mesh.cell_data.values():
             values = self._of_triangles(data)
-            if values is not None and values.dtype.kind in "iub":
+            if values is not None and values.dtype.kind in "iub" and not _is_numbering(values):
                 columns += list(values.reshape(len(values), -1).T)
-        for members in self.mesh.cell_sets.values():
+        for name, members in self.mesh.cell_sets.items():
+            if name in _NO_SETS:
+                continue
             inside = [np.zeros(len(self.mesh.cells[b].data), int) for b in self.blocks]
             for k, b in enumerate(self.blocks):
                 if members[b] is not None:
@@ -109,15 +125,24 @@ class _Conversion:
                 if len(elements) or kind == "quad":
                     cells.append((kind, elements))
                     rows.append((b, np.concatenate(part_rows) if part_rows else np.empty(0, int)))
+        stays = np.ones(len(points), bool)
+        stays[self.triangles.ravel()] = False
+        for _, nodes in cells:
+            stays[np.asarray(nodes, dtype=int).ravel()] = True
+        number = np.cumsum(stays) - 1
+        points = points[stays]
         return _meshio.Mesh(
             points if self.mesh.points.shape[1] == 3 else points[:, :2],
-            cells,
-            point_data=self._point_data(new),
+            [(kind, number[np.asarray(nodes, dtype=int)]) for kind, nodes in cells],
+            point_data={name: values[stays] for name, values in self._point_data(new).items()},
             cell_data=self._cell_data(rows),
             cell_sets=self._cell_sets(rows),
-            point_sets=self.mesh.point_sets,
+            point_sets={name: number[nodes[stays[nodes]]] for name, nodes in self._point_sets()},
             field_data=self.mesh.field_data,
         )
+
+    def _point_sets(self) -> List[Tuple[str, np.ndarray]]:
+        return [(name, np.asarray(nodes, dtype=int)) for name, nodes in self.mesh.point_sets.items()]
 
     def _point_data(self, new: np.ndarray) -> Dict[str, np.ndarray]:
         if not self.mesh.point_data:
@@ -146,12 +171,20 @@ class _Conversion:
         starts = dict(zip(self.blocks, np.cumsum([0] + [len(self.mesh.cells[b].data) for b in self.blocks])))
         sets = {}
         for name, members in self.mesh.cell_sets.items():
+            if name in _NO_SETS:
+                sets[name] = [members[b] for b, _ in rows]
+                continue
             lists = []
             for b, chosen in rows:
                 old = np.asarray(members[b] if members[b] is not None else [], dtype=int)
                 lists.append(old if chosen is None else np.flatnonzero(np.isin(chosen - starts[b], old)))
             sets[name] = lists
         return sets
+
+
+def _is_numbering(values: np.ndarray) -> bool:
+    """Whether each row has a value of its own."""
+    return len(values) > 1 and len(np.unique(values, axis=0)) == len(values)
 
 
 def _in_space(points: np.ndarray) -> np.ndarray:

@@ -10,13 +10,13 @@ import numpy as np
 _LARGEST_PICTURE = 20_000  # quads; a browser gets slow beyond
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Mesh:
     """A surface in quads.
 
-    points: floats, three columns: the kept ones of the input in their order, then new ones
+    points: floats, three columns, also where the input has two; points that no element uses are left out
     quads, triangles: node numbers from 0, four and three columns, oriented as the input is
-    source: for each point its row among the input's points, -1 for a new one
+    source: for each point its row among the input's points if it is where it was, -1 for one that is new or has moved
     quality: figures by name ("scaled_jacobian_min", "irregular_share", ...)
     report: what was done ("regions", "layer_quads", "front_seconds", ...)
     """
@@ -94,13 +94,18 @@ class SurfaceReport:
     seconds: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ModelReport:
     """What became of a Gmsh model: its surfaces by tag, and the figures of all of them together."""
 
     surfaces: List[SurfaceReport]
     warnings: List[str]
     quality: Dict[str, Any]
+
+    def __repr__(self) -> str:
+        quads = sum(surface.quads_out for surface in self.surfaces)
+        triangles = sum(surface.triangles_out for surface in self.surfaces)
+        return f"<qmorph.ModelReport: {len(self.surfaces)} surfaces, {quads} quads, {triangles} triangles, {len(self.left)} left>"
 
     @property
     def left(self) -> List[SurfaceReport]:
