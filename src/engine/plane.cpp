@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "engine/regions.hpp"
+#include "geometry/predicates.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph {
 namespace {
-
-/// A surface is planar if no node is farther from its plane than this times its size. Large enough for
-/// coordinates written with seven digits, small enough that the sagitta of real curvature shows.
-constexpr double kPlanarTolerance = 1e-6;
 
 using Eigen::Vector3d;
 

@@ -22,6 +22,10 @@ inline constexpr double kStraightSine = 1e-6;
 /// The same for triangles: slivers of the input are tolerated, zero area is not.
 inline constexpr double kDegenerateSine = 1e-10;
 
+/// A surface is planar if no node is farther from its plane than this times its size. Large enough for coordinates written
+/// with seven digits, small enough that the sagitta of real curvature shows.
+inline constexpr double kPlanarTolerance = 1e-6;
+
 /// The corner at b of a polygon that runs a, b, c is convex by more than the sine given.
 inline bool is_convex_corner(const Vec2& a, const Vec2& b, const Vec2& c, double least_sine) {
   const Vec2 to_next = c - b, to_previous = a - b;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/describe.hpp"
+#include "geometry/predicates.hpp"
 #include "quality/shapes.hpp"
 #include "quality/sides.hpp"
 #include "space/faults.hpp"
@@ -21,9 +22,6 @@ using Edge = std::pair<Index, Index>;
 
 /// Relative. Areas of a million elements add up with an error of about 1e-13; a hole of one element shows at 1e-7.
 constexpr double kAreaTolerance = 1e-9;
-
-/// The sine of a corner of 180 degrees, up to rounding: more than that is a corner.
-constexpr double kLeastCornerSine = 1e-10;
 
 using Finding = std::optional<Defect>;
 
@@ -65,7 +63,7 @@ std::size_t bad_corner(const std::vector<Eigen::Vector3d>& points, const std::ar
     const Eigen::Vector3d ahead = points[element[(k + 1) % N]] - p;
     const Eigen::Vector3d behind = points[element[(k + N - 1) % N]] - p;
     // The comparison is false for NaN, too.
-    if (!(ahead.cross(behind).dot(normal) > kLeastCornerSine * ahead.norm() * behind.norm())) return k;
+    if (!(ahead.cross(behind).dot(normal) > kDegenerateSine * ahead.norm() * behind.norm())) return k;
   }
   return N;
 }

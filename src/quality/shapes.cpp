@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/predicates.hpp"
 #include "space/mesh_normals.hpp"
 #include "space/result.hpp"
 
@@ -56,7 +57,6 @@ std::optional<Vector3d> common_normal(const SurfaceElements& mesh) {
 }
 
 std::optional<Vector3d> plane_normal(const Patch& patch) {
-  constexpr double kPlanarTolerance = 1e-6;  // of the surface's size
   Vector3d area = Vector3d::Zero();
   Eigen::AlignedBox3d box;
   const auto add = [&](const auto& nodes) {

@@ -65,7 +65,7 @@ template <class Sum>
   return (used[0] + used[1]) + (used[2] + used[3]);
 }
 
-/// The first `count` lanes are.
+/// Whether the first `count` lanes are all positive.
 [[gnu::always_inline]] inline bool are_positive(const FourLanes& lanes, std::size_t count) {
   const FourLanes used = FourLanes{0, 1, 2, 3} < double(count) ? lanes : FourLanes{1, 1, 1, 1};
   return used[0] > 0 && used[1] > 0 && used[2] > 0 && used[3] > 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/predicates.hpp"
 #include "gmsh/session/compat.hpp"
 #include "kernel/sort_unique.hpp"
 
@@ -12,9 +13,6 @@ namespace qmorph::adapter {
 namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
-
-/// Sine of the angle between an element's two directions at a node: with less it is flat there, as in check.cpp.
-constexpr double kLeastSine = 1e-10;
 
 /// A point of the line through points at equal steps, between its neighbours.
 Vector3d along_line(const std::vector<Vector3d>& line, double t) {
@@ -160,7 +158,8 @@ bool CurvedElements::is_folded(Index e) const {
   for (std::size_t node = 0; node < at.size(); ++node) {
     const auto here = tangents(form.slopes, node, at.size()), straight = tangents(form.linear_slopes, node, corners);
     const Vector3d up = straight.col(0).cross(straight.col(1));
-    if (!(here.col(0).cross(here.col(1)).dot(up) > kLeastSine * here.col(0).norm() * here.col(1).norm() * up.norm()))
+    if (!(here.col(0).cross(here.col(1)).dot(up) >
+          kDegenerateSine * here.col(0).norm() * here.col(1).norm() * up.norm()))
       return true;
   }
   return false;

@@ -14,9 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the size of the whole: how far a node of a plane may lie from it.
-constexpr double kPlaneTolerance = 1e-6;
-
 /// Edges looked at for one edge of the outline on average. More, and the question stays open.
 constexpr std::size_t kBudget = 2000;
 
@@ -87,7 +84,7 @@ std::vector<std::vector<Sheet>> group_by_plane(const std::vector<Sheet>& sheets,
   std::vector<std::vector<Sheet>> groups;
   for (const Sheet& sheet : sheets) {
     const auto found = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Sheet>& group) {
-      return std::abs(sheet.normal.dot(group.front().normal)) > 1 - kPlaneTolerance &&
+      return std::abs(sheet.normal.dot(group.front().normal)) > 1 - kPlanarTolerance &&
              lies_in_plane(group.front(), sheet.origin, tolerance);
     });
     if (found == groups.end())
@@ -185,7 +182,7 @@ std::optional<OutlineEdge> find_double_cover(const std::vector<OutlineEdge>& out
 }  // namespace
 
 std::optional<Overlap> find_overlap(const ModelMesh& mesh) {
-  const double tolerance = kPlaneTolerance * size_of(mesh);
+  const double tolerance = kPlanarTolerance * size_of(mesh);
   if (!std::isfinite(tolerance)) return std::nullopt;
   std::vector<Index> neighbours(mesh.tags.size(), 0);
   for (const std::vector<Sheet>& group : group_by_plane(find_sheets(mesh, tolerance), tolerance)) {
