@@ -61,6 +61,7 @@ class Window {
   /// What the button saves, byte by byte.
   std::string saved() {
     adapter::set_parameter(parameter::kMeshFile, directory_ / "saved.msh");
+    std::filesystem::remove(directory_ / "saved.msh");
     press(action::kSave);
     return read_file(directory_ / "saved.msh");
   }
@@ -187,6 +188,38 @@ TEST_CASE("window: back to triangles shows them as they were shown before") {
   window.press(action::kConvert);
   window.press(action::kBack);
   CHECK(adapter::get_option("Mesh.SurfaceEdges") == 0);  // as the user has it
+}
+
+TEST_CASE("window: a file that is there is written over by a second press only, and so are quads by triangles") {
+  const Plate plate;
+  const std::string path = plate.directory / "out.msh";
+  write_file(path, "somebody's");
+  Window window({plate.path});
+  window.press(action::kConvert);
+  adapter::set_parameter(parameter::kMeshFile, path);
+  window.press(action::kSave);
+  CHECK(read_file(path) == "somebody's");
+  CHECK(window.said("is there already: press Save once more"));
+  adapter::set_parameter(parameter::kMeshFile, plate.directory / "other.msh");
+  window.press(action::kSave);
+  CHECK(window.said("other.msh is written"));
+  adapter::set_parameter(parameter::kMeshFile, path);
+  window.press(action::kSave);  // it was another that the press was for
+  CHECK(read_file(path) == "somebody's");
+  window.press(action::kSave);
+  const std::string quads = read_file(path);
+  CHECK(quads.size() > 1000);
+  std::filesystem::remove(path);
+  write_file(path, "ours, since");
+  window.press(action::kSave);  // no question about what the window has written
+  CHECK(read_file(path) == quads);
+  window.press(action::kBack);
+  window.press(action::kSave);
+  CHECK(read_file(path) == quads);
+  CHECK(!window.said("has the triangles"));
+  window.press(action::kSave);
+  CHECK(read_file(path) != quads);
+  CHECK(window.said("has the triangles"));
 }
 
 TEST_CASE("window: what is chosen in the panel is what the command's options are") {

@@ -155,6 +155,10 @@ bool Document::forward_to_quads() {
   return true;
 }
 
+std::string Document::target(const Request& request) const {
+  return adapter::plan_output(request.input.empty() ? file_ : request.input, request.output, request.format).path;
+}
+
 std::vector<std::string> Document::save(const Request& of_panel) {
   Request request = of_panel;
   if (request.input.empty()) request.input = file_;

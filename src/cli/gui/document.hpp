@@ -54,6 +54,8 @@ class Document {
   /// The mesh before it was converted. \pre converted()
   const adapter::Snapshot& triangles() const { return *triangles_; }
 
+  /// Where save() would write. \throws Error
+  std::string target(const Request& request) const;
   /// Writes the model as the command would. \return what to say of it. \throws Error
   std::vector<std::string> save(const Request& request);
 

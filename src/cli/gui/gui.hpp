@@ -3,6 +3,7 @@
 /// --gui: Gmsh's window with a panel of ours.
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -48,6 +49,7 @@ class Gui {
   void step(const std::string& action);
   bool record();
   void save();
+  bool may_write(const std::string& path);
   void write_report();
   void write_film();
   void compare();
@@ -69,6 +71,8 @@ class Gui {
   std::string parameters_;  ///< of the script
   std::optional<FrontPlayer> player_;
   std::vector<std::string> said_;
+  std::map<std::string, bool> saved_;  ///< files of ours: whether they have the triangles that were converted
+  std::string asked_;                  ///< the file that the next press on "Save" may write over
 };
 
 /// The window until it is closed. \return the exit status. \throws Error

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The buttons below "Files".
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
 #include "cli/files/scene.hpp"
 #include "cli/gui/compare.hpp"
 #include "cli/gui/gui.hpp"
@@ -21,9 +26,27 @@ void write_text(const std::string& path, const std::string& text, const Call& ca
 
 void Gui::save() {
   const Request request = read_request(call_.request);
-  if (player_ && document_.shows_triangles())
-    say("the front has not come to its end: what is written has triangles", adapter::Severity::warning);
+  const std::string path = document_.target(request);
+  if (!may_write(path)) return;
   for (const std::string& line : document_.save(request)) say(line);
+  saved_[path] = document_.shows_triangles();
+  if (document_.shows_triangles())
+    say(path + " has the triangles, not the quads: Convert, or step to the end, and save once more for those",
+        adapter::Severity::warning);
+}
+
+/// A file that is not ours, or has the quads where there are triangles now, is written over by a second press only.
+bool Gui::may_write(const std::string& path) {
+  const bool asked = std::exchange(asked_, std::string()) == path;
+  const auto ours = saved_.find(path);
+  std::error_code error;
+  const bool free = !std::filesystem::exists(path, error) && !error;
+  if (asked || free || (ours != saved_.end() && ours->second == document_.shows_triangles())) return true;
+  say(fmt::format("{} is there already: press Save once more to write {} over it", path,
+                  document_.shows_triangles() ? "the triangles" : "the mesh"),
+      adapter::Severity::warning);
+  asked_ = path;
+  return false;
 }
 
 report::RunFacts Gui::facts(const Request& request, const std::string& output) const {

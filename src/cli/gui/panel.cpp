@@ -122,7 +122,7 @@ void add_files(const Request& request, Json& all) {
   const std::string input = request.input.empty() ? "untitled.geo" : request.input;
   const std::string mesh = request.output.empty() ? with_extension(input, "-quads.msh") : request.output;
   all.push_back(file(kMeshFile, mesh));
-  all.push_back(button("00qmorph/40Files/2Save", "Save as", action::kSave));
+  all.push_back(button("00qmorph/40Files/2Save", "Save", action::kSave));
   all.push_back(file(kReportFile, with_extension(mesh, "-report.html")));
   all.push_back(button("00qmorph/40Files/4Report", "Write the page", action::kReport));
   all.push_back(file(kFilmFile, with_extension(mesh, "-film.html")));
