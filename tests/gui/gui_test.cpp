@@ -301,6 +301,7 @@ TEST_CASE("window: step by step, forward, back and to the end, which is what the
   CHECK(adapter::text_parameter(parameter::kStepDone) == fmt::format("1 of {}", player->count()));
   CHECK(adapter::text_parameter(parameter::kStepWords).rfind("quad of row 1", 0) == 0);
   CHECK(counts().second == 0);  // the model has its triangles until the end
+  CHECK(figure("Quads").empty());
 
   adapter::set_parameter(parameter::kSteps, 10);
   window.press(action::kForward);
@@ -336,8 +337,10 @@ TEST_CASE("window: step by step, forward, back and to the end, which is what the
   window.press(action::kToEnd);
   CHECK(player->position() == player->count());
   CHECK(counts().first == 0);
+  CHECK(figure("Quads") == std::to_string(counts().second));
   CHECK(window.saved() == expected);
   window.press(action::kBackward);
+  CHECK(figure("Quads").empty());
   CHECK(player->position() < player->count());
   CHECK(counts().second == 0);
   window.press(action::kConvert);
@@ -400,6 +403,24 @@ TEST_CASE("window: a surface that cannot be converted is named, with the reason,
     highlighted = highlighted || name.find("surface 7") != std::string::npos;
   }
   CHECK(highlighted);
+}
+
+TEST_CASE("window: where nothing could be converted, no figure and no colour is that of a quad") {
+  const TemporaryDirectory directory;
+  const std::string path = directory / "bad.msh";
+  const Grid bad;
+  std::vector<std::string> elements;
+  for (const auto& t : bad.triangles()) elements.push_back(row("2 2 0 7", t));
+  elements.push_back(row("2 2 0 7", bad.triangles()[0]));  // the same triangle twice
+  write_file(path, msh22(bad.nodes(), elements));
+  Window window({path});
+  window.press(action::kConvert);
+  CHECK(figure("Quads") == "0");
+  CHECK(figure("Least SJ") == "-");
+  CHECK(figure("Left as they were") == "7");
+  std::vector<int> views;
+  gmsh::view::getTags(views);
+  CHECK(views.size() == 1);  // the surface that is left
 }
 
 TEST_CASE("window: views show the colouring that is chosen, and go with the quads") {

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "cli/files/scene.hpp"
@@ -158,14 +159,18 @@ bool Gui::convert(const std::function<Observer*()>& watch) {
 
 void Gui::tell(const Converted& converted) {
   for (const std::string& warning : converted.model.warnings) say(warning, Severity::warning);
+  std::set<std::string> reasons;  // each once
   for (const SurfaceReport& surface : converted.model.surfaces) {
     const bool left = surface.outcome == SurfaceOutcome::left;
+    if (left && !reasons.insert(surface.reason).second) continue;
     say(report::surface_line(surface), left ? Severity::warning : Severity::information);
     for (const std::string& warning : surface.warnings)
       say(fmt::format("surface {}: {}", surface.tag, warning), Severity::warning);
   }
   if (converted.even) say(report::even_line(*converted.even));
   say(report::total_line(converted.model, "in the window", converted.seconds));
+  if (converted.model.total.quads == 0 && !reasons.empty())
+    window_.status("no quads: " + converted.model.surfaces.front().reason);
 }
 
 /// The views that belong to what is there: a front, or a result.
@@ -176,8 +181,11 @@ void Gui::show() {
     show_front(*player_, choices_.front, views_);
     return;
   }
-  if (const Converted* converted = document_.converted(); converted && !document_.shows_triangles())
-    show_result(read_scene(), choices_.colour, choices_.irregular, surfaces_left(converted->model), views_);
+  const Converted* converted = document_.converted();
+  if (!converted || document_.shows_triangles()) return;
+  const bool any = converted->model.total.quads > 0;  // else the triangles would look like a result
+  show_result(read_scene(), any ? choices_.colour : report::PictureColour::none, any && choices_.irregular,
+              surfaces_left(converted->model), views_);
 }
 
 void Gui::back() {

@@ -70,6 +70,7 @@ void Gui::step(const std::string& name) {
   const bool end = player_->position() == player_->count();
   if (end != !document_.shows_triangles()) end ? document_.forward_to_quads() : document_.back_to_triangles();
   if (end) adapter::show_surface(player_->surface(), true), adapter::show_curves(true);
+  show_figures(end ? &document_.converted()->model : nullptr, document_.converted()->seconds);
   adapter::set_parameter(parameter::kStepDone, fmt::format("{} of {}", player_->position(), player_->count()));
   adapter::set_parameter(parameter::kStepWords, player_->words());
   show();

@@ -91,6 +91,7 @@ void add_views(const Request& request, Json& all) {
   const auto colour = report::find_picture_colour(request.colour);
   all.push_back(choice(kColour, colour ? static_cast<int>(*colour) : 0, colours));
   all.push_back(tick(kIrregular, true));
+  all.back()["label"] = "Irregular: orange 3, blue 5 edges";
   all.push_back(button("00qmorph/10Back", "Back to triangles", action::kBack));
 }
 
@@ -211,11 +212,13 @@ void show_figures(const ModelReport* model, double seconds) {
     std::vector<int> left;
     for (const SurfaceReport& surface : model->surfaces)
       if (surface.outcome == SurfaceOutcome::left) left.push_back(surface.tag);
+    const bool any = q.quads > 0;
+    const auto of_quads = [&](const std::string& text) { return any ? text : std::string("-"); };
     words = {fmt::format("{}", q.quads),
              fmt::format("{}", triangles),
-             fmt::format("{:.3f}", q.scaled_jacobian_min),
-             fmt::format("{:.3f}", q.scaled_jacobian_mean),
-             fmt::format("{:.1f} %", 100 * q.irregular_share()),
+             of_quads(fmt::format("{:.3f}", q.scaled_jacobian_min)),
+             of_quads(fmt::format("{:.3f}", q.scaled_jacobian_mean)),
+             of_quads(fmt::format("{:.1f} %", 100 * q.irregular_share())),
              left.empty() ? "none" : fmt::format("{}", fmt::join(left, ", ")),
              fmt::format("{:.2f}", seconds)};
   }
