@@ -162,6 +162,33 @@ TEST_CASE("window: back to triangles brings back the very mesh, and quads again 
   CHECK(window.saved() == written(path));
 }
 
+TEST_CASE("window: back to triangles shows them as they were shown before") {
+  const TemporaryDirectory directory;
+  const std::string path = directory / "two.msh";
+  make_msh(path, 4.1, true, build_two_squares);
+  Window window({path});
+  const auto picture = [&] {
+    for (int i = 0; i < 20; ++i) window.gui().turn(0.05);  // until the window has got its size
+    gmsh::graphics::draw();
+    const std::string file = directory / "window.ppm";
+    gmsh::write(file);
+    const std::string bytes = read_file(file);
+    const std::size_t header = bytes.find("\n255\n");  // has the time
+    REQUIRE(header < bytes.size());
+    return bytes.substr(header);
+  };
+  const std::string triangles = picture();
+  window.press(action::kConvert);
+  CHECK((picture() != triangles));
+  window.press(action::kBack);
+  CHECK((picture() == triangles));
+  gmsh::option::setNumber("Mesh.SurfaceEdges", 0);
+  CHECK((picture() != triangles));
+  window.press(action::kConvert);
+  window.press(action::kBack);
+  CHECK(adapter::get_option("Mesh.SurfaceEdges") == 0);  // as the user has it
+}
+
 TEST_CASE("window: what is chosen in the panel is what the command's options are") {
   const TemporaryDirectory directory;
   const std::string path = directory / "two.msh";
@@ -487,21 +514,55 @@ TEST_CASE("window: a second press cancels, and so does another model") {
   CHECK(before.first > 0);
 }
 
+namespace {
+
+bool has_xdotool() {
+  if (std::system("command -v xdotool >/dev/null") == 0) return true;
+  MESSAGE("skipped: there is no xdotool here");
+  return false;
+}
+
+/// Words for a shell that clicks there, in pixels from the right and the lower end of the menu.
+std::string click(int x, int y) {
+  const int menu = static_cast<int>(adapter::get_option("General.MenuWidth"));
+  return fmt::format(
+      "eval $(xdotool search --onlyvisible --name '^Gmsh - ' getwindowgeometry --shell) && "
+      "xdotool mousemove $((X + {})) $((Y + HEIGHT - {})) && sleep 0.3 && xdotool click 1 && sleep 0.3",
+      menu + x, y);
+}
+
+}  // namespace
+
+TEST_CASE("window: surfaces are picked with the mouse while quads and marks are shown") {
+  if (!has_xdotool()) return;
+  const Plate plate;
+  Window window({plate.path});
+  window.press(action::kConvert);
+  for (int i = 0; i < 20; ++i) window.gui().turn(0.05);
+  const auto visible = [] {
+    std::vector<int> views;
+    gmsh::view::getTags(views);
+    return std::count_if(views.begin(), views.end(), [](int view) {
+      return adapter::get_option(fmt::format("View[{}].Visible", gmsh::view::getIndex(view))) != 0;
+    });
+  };
+  const auto before = visible();
+  CHECK(before >= 2);
+  // Beside the surface's cross, which goes through its middle, and on it.
+  const std::string words = "(sleep 0.5; " + click(200, 315) + "; " + click(200, 381) + "; xdotool key e) >/dev/null &";
+  REQUIRE(std::system(words.c_str()) == 0);
+  window.press(action::kPick);
+  CHECK(adapter::text_parameter(parameter::kSurfaces) == "3");
+  CHECK(visible() == before);
+}
+
 TEST_CASE("window: a click of the mouse on the button is a press") {
-  if (std::system("command -v xdotool >/dev/null") != 0) {
-    MESSAGE("skipped: there is no xdotool here");
-    return;
-  }
+  if (!has_xdotool()) return;
   const Plate plate;
   Window window({plate.path});
   for (int i = 0; i < 20; ++i) window.gui().turn(0.05);
   // The button is to the left of the gear, at the lower end of the tree.
-  const int menu = static_cast<int>(adapter::get_option("General.MenuWidth"));
-  const std::string click = fmt::format(
-      "eval $(xdotool search --onlyvisible --name '^Gmsh - ' getwindowgeometry --shell) && "
-      "xdotool mousemove $((X + {})) $((Y + HEIGHT - 38)) && sleep 0.2 && xdotool click 1 && sleep 0.2",
-      menu - 85);
-  REQUIRE(std::system(click.c_str()) == 0);
+  REQUIRE(std::system(click(-85, 38).c_str()) == 0);
   for (int i = 0; i < 100 && counts().second == 0; ++i) window.gui().turn(0.05);
   CHECK(counts().first == 0);
   CHECK(counts().second > 100);

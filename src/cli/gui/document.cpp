@@ -77,6 +77,11 @@ bool Document::has_changed_hands() {
   return true;
 }
 
+void Document::note_state() {
+  state_ = adapter::loaded_state();
+  adapter::mesh_has_changed();
+}
+
 void Document::forget() {
   triangles_.reset();
   quads_.reset();

@@ -59,7 +59,7 @@ class Document {
 
  private:
   void mesh(double size_factor);
-  void note_state() { state_ = adapter::loaded_state(); }
+  void note_state();
   void forget();
 
   const Call& call_;

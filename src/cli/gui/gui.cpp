@@ -190,7 +190,9 @@ void Gui::back() {
 }
 
 void Gui::pick() {
-  say("click on surfaces, then press e; q: give up");
+  leave_front();  // its surface cannot be seen
+  show();
+  say("click on the crosses (dashed lines) of surfaces, then press e; q gives up");
   const std::vector<int> tags = window_.pick_surfaces();
   std::string words;
   for (int tag : tags) words += fmt::format("{}{}", words.empty() ? "" : ", ", tag);

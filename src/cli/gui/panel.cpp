@@ -81,7 +81,7 @@ void add_conversion(const Request& request, Json& all) {
   all.push_back(tick(kCleanupOnly, request.cleanup_only));
   all.push_back(number(kCrease, get_option(engine_options(request), "crease_angle"), 0, 180, 5));
   all.push_back(text(kSurfaces, request.surfaces.empty() ? kAll : fmt::format("{}", fmt::join(request.surfaces, ","))));
-  all.push_back(button("00qmorph/06Pick", "with the mouse", action::kPick));
+  all.push_back(button("00qmorph/06Pick", "pick with the mouse", action::kPick));
   all.push_back(choice(kSmoothing, request.smoothing == "thesis", {{"shape energy", 0}, {"thesis", 1}}));
 }
 

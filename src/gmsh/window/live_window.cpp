@@ -23,6 +23,33 @@ constexpr int kGivenUp = 0, kSelected = 1, kUndone = 3, kEnded = 4;
 /// Of an element's sides: dark on light colours and on the background.
 constexpr int kMeshLines[] = {60, 60, 70};
 
+/// No view is there as long as this lives: Gmsh 4.8 crashes when a click meets one that is made of lists.
+class HiddenViews {
+ public:
+  HiddenViews() {
+    std::vector<int> all;
+    ::gmsh::view::getTags(all);
+    for (int tag : all)
+      if (get_option(visible(tag)) != 0) hidden_.push_back(tag), set_option(visible(tag), 0);
+  }
+  ~HiddenViews() {
+    try {
+      std::vector<int> all;  // some may have gone meanwhile
+      ::gmsh::view::getTags(all);
+      for (int tag : hidden_)
+        if (std::count(all.begin(), all.end(), tag)) set_option(visible(tag), 1);
+    } catch (...) {  // a destructor has nobody to tell
+    }
+  }
+  HiddenViews(const HiddenViews&) = delete;
+  HiddenViews& operator=(const HiddenViews&) = delete;
+
+ private:
+  static std::string visible(int tag) { return "View[" + std::to_string(::gmsh::view::getIndex(tag)) + "].Visible"; }
+
+  std::vector<int> hidden_;
+};
+
 }  // namespace
 
 LoadedState loaded_state() {
@@ -107,6 +134,14 @@ void set_mesh_look() {
     ::gmsh::option::setColor(kind, kMeshLines[0], kMeshLines[1], kMeshLines[2]);
 }
 
+void mesh_has_changed() {
+  // Gmsh keeps what it has drawn after a mesh is cleared and filled, until an option of the mesh gets another value.
+  constexpr const char* kOption = "Mesh.SurfaceEdges";
+  const double value = get_option(kOption);
+  set_option(kOption, value == 0);
+  set_option(kOption, value);
+}
+
 void show_curves(bool visible) { set_option("Geometry.Curves", visible ? 1 : 0); }
 
 void show_surface(int tag, bool visible) { ::gmsh::model::setVisibility({{2, tag}}, visible ? 1 : 0); }
@@ -142,6 +177,7 @@ void LiveWindow::status(const std::string& text) {
 
 std::vector<int> LiveWindow::pick_surfaces() {
   const ScopedOption drawn("Geometry.Surfaces", 1);  // by a cross, which can be clicked on
+  const HiddenViews hidden;
   refresh();
   std::vector<int> tags;
   while (is_open()) {  // each call is one click

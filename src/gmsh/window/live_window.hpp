@@ -48,6 +48,8 @@ void log_line(const std::string& text, Severity severity = Severity::information
 
 /// The mesh of surfaces by its lines.
 void set_mesh_look();
+/// What is drawn next is the mesh as it is now.
+void mesh_has_changed();
 void show_curves(bool visible);
 void show_surface(int tag, bool visible);
 
