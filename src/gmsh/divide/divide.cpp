@@ -82,15 +82,33 @@ std::vector<double> parameters_for(const DividedCurve& curve, int segments) {
   return parameters;
 }
 
+std::vector<Vector3d> points_at(const DividedCurve& curve, const std::vector<double>& parameters) {
+  std::vector<double> xyz;
+  ::gmsh::model::getValue(1, curve.tag, parameters, xyz);
+  std::vector<Vector3d> points;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  return points;
+}
+
+/// Whether the segments turn back somewhere: a curve with a cusp, or with a loop smaller than a segment, crosses itself with
+/// nodes in one place and not with nodes in another. Gmsh cannot mesh inside, and newer versions take for ever to see it.
+bool folds_back(const DividedCurve& curve, int segments) {
+  std::vector<Vector3d> points = points_at(curve, parameters_for(curve, segments));
+  points.insert(points.begin(), curve.points.front());
+  points.push_back(curve.points.back());
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    if ((points[i] - points[i - 1]).dot(points[i + 1] - points[i]) < 0) return true;
+  return false;
+}
+
 /// Gmsh has spread the nodes evenly; moves them to where the sizes want them.
 void place_nodes(const DividedCurve& curve, int segments) {
   const std::vector<std::pair<double, std::size_t>> nodes = nodes_along(curve.tag);
   const std::vector<double> parameters = parameters_for(curve, segments);
-  std::vector<double> xyz;
   if (nodes.size() != parameters.size()) return;
-  ::gmsh::model::getValue(1, curve.tag, parameters, xyz);
+  const std::vector<Vector3d> points = points_at(curve, parameters);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    ::gmsh::model::mesh::setNode(nodes[i].second, {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}, {parameters[i]});
+    ::gmsh::model::mesh::setNode(nodes[i].second, {points[i].x(), points[i].y(), points[i].z()}, {parameters[i]});
 }
 
 /// What Gmsh has been told of a curve. It would forget that it extrudes it, besides.
@@ -107,6 +125,9 @@ std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
   for (Index c = 0; c < model.curves.size(); ++c)
     if (plan.segments[c] != model.curves[c].segments) changed.insert(c);
   if (changed.empty()) return {};
+  for (Index c : changed)
+    if (folds_back(model.curves[c], plan.segments[c])) stubborn.insert(c);
+  if (!stubborn.empty()) return stubborn;
   for (Index c : changed) ::gmsh::model::mesh::setTransfiniteCurve(model.curves[c].tag, plan.segments[c] + 1);
   ::gmsh::model::mesh::generate(1);
   for (Index c = 0; c < model.curves.size(); ++c)
