@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/divide/divide.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -139,6 +141,54 @@ std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
   return stubborn;
 }
 
+using Segment = std::array<Eigen::Vector2d, 2>;
+
+/// Also where they only touch, but not in a common end.
+bool cross(const Segment& s, const Segment& t) {
+  constexpr double kSame = 1e-6;  // of a segment: ends that two curves have in common are rounded
+  const double near = kSame * std::max((s[1] - s[0]).norm(), (t[1] - t[0]).norm());
+  for (const auto& p : s)
+    if ((p - t[0]).norm() <= near || (p - t[1]).norm() <= near) return false;
+  for (int i = 0; i < 2; ++i)
+    if (std::max(s[0][i], s[1][i]) < std::min(t[0][i], t[1][i]) ||
+        std::max(t[0][i], t[1][i]) < std::min(s[0][i], s[1][i]))
+      return false;
+  const auto side = [](const Segment& of, const Eigen::Vector2d& p) {
+    const Eigen::Vector2d along = of[1] - of[0], to = p - of[0];
+    return along.x() * to.y() - along.y() * to.x();
+  };
+  return side(s, t[0]) * side(s, t[1]) <= 0 && side(t, s[0]) * side(t, s[1]) <= 0;
+}
+
+/// Whether the boundary of a planar surface crosses itself as it is planned. Gmsh cannot mesh inside then, and newer
+/// versions may take for ever to see it.
+bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, const IntervalPlan& plan) {
+  constexpr std::size_t kMost = 3000;  // segments: each is compared with each
+  constexpr double kFlat = 1e-9;
+  std::vector<std::array<Vector3d, 2>> sides;
+  for (Index c : surface.boundary) {
+    const DividedCurve& curve = model.curves[c];
+    if (curve.points.empty()) continue;
+    Vector3d before = curve.points.front();
+    std::vector<Vector3d> points = points_at(curve, parameters_for(curve, plan.segments[c]));
+    points.push_back(curve.points.back());
+    for (const Vector3d& p : points) sides.push_back({before, p}), before = p;
+  }
+  if (sides.empty() || sides.size() > kMost) return false;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& side : sides) spread += (side[0] - sides[0][0]) * (side[0] - sides[0][0]).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  if (!(axes.eigenvalues()[0] <= kFlat * axes.eigenvalues()[2])) return false;
+  std::vector<Segment> flat;
+  for (const auto& side : sides)
+    flat.push_back({axes.eigenvectors().rightCols<2>().transpose() * side[0],
+                    axes.eigenvectors().rightCols<2>().transpose() * side[1]});
+  for (std::size_t i = 0; i < flat.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (cross(flat[i], flat[j])) return true;
+  return false;
+}
+
 DivisionReport report_on(const CurveModel& model) {
   DivisionReport report;
   report.understood = true;
@@ -193,6 +243,12 @@ DivisionReport divide_curves(const DivisionTask& task) {
     const std::set<Index> others = carry_out(*model, plan);
     stubborn.insert(others.begin(), others.end());
     if (!others.empty()) continue;
+    if (std::any_of(model->surfaces.begin(), model->surfaces.end(),
+                    [&](const BoundedSurface& surface) { return crosses_itself(*model, surface, plan); })) {
+      for (Index c = 0; c < model->curves.size(); ++c)
+        if (plan.segments[c] != model->curves[c].segments) undo(model->curves[c]);
+      return {};
+    }
     add_changes(*model, plan, report);
     for (Index s : plan.odd)
       if (s < model->surfaces.size()) report.odd_surfaces.push_back(model->surfaces[s].tag);
