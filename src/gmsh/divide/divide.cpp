@@ -160,19 +160,31 @@ bool cross(const Segment& s, const Segment& t) {
   return side(s, t[0]) * side(s, t[1]) <= 0 && side(t, s[0]) * side(t, s[1]) <= 0;
 }
 
+/// Whether nodes inside of two curves are at the same place.
+bool meet_inside(const Segment& s, bool s_inside, const Segment& t, bool t_inside) {
+  return s_inside && t_inside && (s[0] - t[0]).norm() <= 1e-6 * (s[1] - s[0]).norm();
+}
+
 /// Whether the boundary of a planar surface crosses itself as it is planned. Gmsh cannot mesh inside then, and newer
 /// versions may take for ever to see it.
 bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, const IntervalPlan& plan) {
   constexpr std::size_t kMost = 3000;  // segments: each is compared with each
   constexpr double kFlat = 1e-9;
   std::vector<std::array<Vector3d, 2>> sides;
+  std::vector<bool> starts_inside;  // by side: whether it starts at a node inside of its curve
+  std::vector<Index> curve_of;
   for (Index c : surface.boundary) {
     const DividedCurve& curve = model.curves[c];
     if (curve.points.empty()) continue;
     Vector3d before = curve.points.front();
     std::vector<Vector3d> points = points_at(curve, parameters_for(curve, plan.segments[c]));
     points.push_back(curve.points.back());
-    for (const Vector3d& p : points) sides.push_back({before, p}), before = p;
+    for (const Vector3d& p : points) {
+      starts_inside.push_back(before != curve.points.front());
+      curve_of.push_back(c);
+      sides.push_back({before, p});
+      before = p;
+    }
   }
   if (sides.empty() || sides.size() > kMost) return false;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -185,7 +197,9 @@ bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, cons
                     axes.eigenvectors().rightCols<2>().transpose() * side[1]});
   for (std::size_t i = 0; i < flat.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (cross(flat[i], flat[j])) return true;
+      if (cross(flat[i], flat[j]) ||
+          (curve_of[i] != curve_of[j] && meet_inside(flat[i], starts_inside[i], flat[j], starts_inside[j])))
+        return true;
   return false;
 }
 
