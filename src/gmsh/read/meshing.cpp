@@ -186,6 +186,7 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
   if (task.kept_on_geometry || task.compounds) return generate(flags, nullptr, division);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const StageLog log = generate(flags, &curves, division);
+    if (!division.understood) return log;  // each curve has been made even by itself already
     run_logged([&] { forget_division(division); });
     if (std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) {
       const std::map<int, int> further = find_divided_further(division);
