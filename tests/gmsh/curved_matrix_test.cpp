@@ -223,20 +223,8 @@ TEST_CASE("curved matrix: from each version into each other") {
     for (const double version : {2.2, 4.1}) {
       const TemporaryDirectory directory;
       make_msh(directory / "in.msh", version, false, [&] { build_two_walls(order); });
-      const Snapshot before = read_snapshot(directory / "in.msh");
-      for (const char* format : {"msh22", "msh3", "msh40", "msh41"})
-        for (const bool binary : {false, true}) {
-          if (binary && std::string(format) == "msh40") continue;  // Gmsh 4.8 writes empty files
-          CAPTURE(order);
-          CAPTURE(version);
-          CAPTURE(std::string(format));
-          CAPTURE(binary);
-          std::vector<std::string> words = {directory / "in.msh", "-format", format, "-o", directory / "out.msh"};
-          if (binary) words.push_back("-bin");
-          const Result result = run_qmorph(words);
-          CAPTURE(result.err);
-          CHECK(result.status == 0);
-          CHECK(difference(before, read_snapshot(directory / "out.msh"), {1}, Compare::coordinates) == "");
-        }
+      CAPTURE(order);
+      CAPTURE(version);
+      check_formats(directory / "in.msh", {"msh22", "msh3", "msh40", "msh41"}, {1});
     }
 }

@@ -66,6 +66,10 @@ enum class Compare { tags, coordinates };
 std::string difference(const Snapshot& before, const Snapshot& after, const std::set<int>& converted,
                        Compare compare = Compare::tags);
 
+/// Converts a file to each of these formats of MSH, in text and in binary where Gmsh has that, and checks that nothing is
+/// different but the inside of the surfaces `converted`.
+void check_formats(const std::string& input, const std::vector<std::string>& formats, const std::set<int>& converted);
+
 /// Triangles and quads of a surface.
 std::pair<std::size_t, std::size_t> element_counts(const Snapshot& snapshot, int surface);
 
