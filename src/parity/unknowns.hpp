@@ -5,20 +5,9 @@
 #include <vector>
 
 #include "parity/intervals.hpp"
+#include "parity/sets.hpp"
 
 namespace qmorph::parity {
-
-/// Sets that grow together; the smallest member stands for all.
-class Sets {
- public:
-  explicit Sets(std::size_t count);
-  Index root(Index i);
-  void unite(Index i, Index j);
-  std::vector<std::vector<Index>> members();  ///< by root; empty for who is none
-
- private:
-  std::vector<Index> parent_;
-};
 
 /// How far off a number is, for a curve: segments times the square of the logarithm of what sizes change by.
 double harm(const CurveWish& curve, int segments);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "gmsh/divide/loops.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -246,8 +247,7 @@ void BandFinder::add_pairs(const std::vector<Index>& boundary) {
   std::vector<Index> curves;
   for (Index c : boundary)
     if (curve(c).segments > 1) curves.push_back(c);
-  std::sort(curves.begin(), curves.end());
-  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  sort_unique(curves);
   for (std::size_t i = 0; i < curves.size(); ++i)
     for (std::size_t j = i + 1; j < curves.size(); ++j)
       if (face_from_end_to_end(curves[i], curves[j])) add({{curves[i], false}}, {{curves[j], false}});

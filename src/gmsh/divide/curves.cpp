@@ -101,6 +101,25 @@ Index CurveModel::find(int tag) const {
   return at == curves.end() || at->tag != tag ? kNone : Index(at - curves.begin());
 }
 
+std::vector<double> parameters_for(const DividedCurve& curve, int segments) {
+  std::vector<double> parameters;
+  for (int i = 1; i < segments; ++i) {
+    const double at = double(i) * curve.finer / segments;
+    const auto below = std::size_t(at);
+    const double t = at - double(below);
+    parameters.push_back(curve.parameters[below] + t * (curve.parameters[below + 1] - curve.parameters[below]));
+  }
+  return parameters;
+}
+
+std::vector<Eigen::Vector3d> points_at(const DividedCurve& curve, const std::vector<double>& parameters) {
+  std::vector<double> xyz;
+  ::gmsh::model::getValue(1, curve.tag, parameters, xyz);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  return points;
+}
+
 int count_segments(int curve) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;

@@ -44,6 +44,10 @@ struct CurveModel {
   Index find(int tag) const;  ///< kNone if there is none
 };
 
+/// Parameters that cut a curve into so many segments, each as long as the sizes along it say; without its ends.
+std::vector<double> parameters_for(const DividedCurve& curve, int segments);
+std::vector<Eigen::Vector3d> points_at(const DividedCurve& curve, const std::vector<double>& parameters);
+
 /// How many line elements a curve has.
 int count_segments(int curve);
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/divide/divide.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "gmsh/divide/bands.hpp"
+#include "gmsh/divide/crossings.hpp"
 #include "gmsh/divide/curves.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
+#include "kernel/sort_unique.hpp"
 #include "parity/intervals.hpp"
-#include "parity/unknowns.hpp"
+#include "parity/sets.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -26,8 +26,7 @@ bool is_divided(const CurveModel& model, const BoundedSurface& surface) {
   std::vector<int> points;
   for (const std::vector<Index>* curves : {&surface.boundary, &surface.embedded})
     for (Index c : *curves) points.insert(points.end(), model.curves[c].ends.begin(), model.curves[c].ends.end());
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  sort_unique(points);
   parity::Sets joined(points.size());
   const auto place = [&](int point) {
     return Index(std::lower_bound(points.begin(), points.end(), point) - points.begin());
@@ -72,37 +71,6 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const st
   return problem;
 }
 
-/// Parameters that cut a curve into so many segments, each as long as the sizes along it say.
-std::vector<double> parameters_for(const DividedCurve& curve, int segments) {
-  std::vector<double> parameters;
-  for (int i = 1; i < segments; ++i) {
-    const double at = double(i) * curve.finer / segments;
-    const auto below = std::size_t(at);
-    const double t = at - double(below);
-    parameters.push_back(curve.parameters[below] + t * (curve.parameters[below + 1] - curve.parameters[below]));
-  }
-  return parameters;
-}
-
-std::vector<Vector3d> points_at(const DividedCurve& curve, const std::vector<double>& parameters) {
-  std::vector<double> xyz;
-  ::gmsh::model::getValue(1, curve.tag, parameters, xyz);
-  std::vector<Vector3d> points;
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  return points;
-}
-
-/// Whether the segments turn back somewhere: a curve with a cusp, or with a loop smaller than a segment, crosses itself with
-/// nodes in one place and not with nodes in another. Gmsh cannot mesh inside, and newer versions take for ever to see it.
-bool folds_back(const DividedCurve& curve, int segments) {
-  std::vector<Vector3d> points = points_at(curve, parameters_for(curve, segments));
-  points.insert(points.begin(), curve.points.front());
-  points.push_back(curve.points.back());
-  for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if ((points[i] - points[i - 1]).dot(points[i + 1] - points[i]) < 0) return true;
-  return false;
-}
-
 /// Gmsh has spread the nodes evenly; moves them to where the sizes want them.
 void place_nodes(const DividedCurve& curve, int segments) {
   const std::vector<std::pair<double, std::size_t>> nodes = nodes_along(curve.tag);
@@ -139,68 +107,6 @@ std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
   else
     for (Index c : changed) undo(model.curves[c]);
   return stubborn;
-}
-
-using Segment = std::array<Eigen::Vector2d, 2>;
-
-/// Also where they only touch, but not in a common end.
-bool cross(const Segment& s, const Segment& t) {
-  constexpr double kSame = 1e-6;  // of a segment: ends that two curves have in common are rounded
-  const double near = kSame * std::max((s[1] - s[0]).norm(), (t[1] - t[0]).norm());
-  for (const auto& p : s)
-    if ((p - t[0]).norm() <= near || (p - t[1]).norm() <= near) return false;
-  for (int i = 0; i < 2; ++i)
-    if (std::max(s[0][i], s[1][i]) < std::min(t[0][i], t[1][i]) ||
-        std::max(t[0][i], t[1][i]) < std::min(s[0][i], s[1][i]))
-      return false;
-  const auto side = [](const Segment& of, const Eigen::Vector2d& p) {
-    const Eigen::Vector2d along = of[1] - of[0], to = p - of[0];
-    return along.x() * to.y() - along.y() * to.x();
-  };
-  return side(s, t[0]) * side(s, t[1]) <= 0 && side(t, s[0]) * side(t, s[1]) <= 0;
-}
-
-/// Whether nodes inside of two curves are at the same place.
-bool meet_inside(const Segment& s, bool s_inside, const Segment& t, bool t_inside) {
-  return s_inside && t_inside && (s[0] - t[0]).norm() <= 1e-6 * (s[1] - s[0]).norm();
-}
-
-/// Whether the boundary of a planar surface crosses itself as it is planned. Gmsh cannot mesh inside then, and newer
-/// versions may take for ever to see it.
-bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, const IntervalPlan& plan) {
-  constexpr std::size_t kMost = 3000;  // segments: each is compared with each
-  constexpr double kFlat = 1e-9;
-  std::vector<std::array<Vector3d, 2>> sides;
-  std::vector<bool> starts_inside;  // by side: whether it starts at a node inside of its curve
-  std::vector<Index> curve_of;
-  for (Index c : surface.boundary) {
-    const DividedCurve& curve = model.curves[c];
-    if (curve.points.empty()) continue;
-    Vector3d before = curve.points.front();
-    std::vector<Vector3d> points = points_at(curve, parameters_for(curve, plan.segments[c]));
-    points.push_back(curve.points.back());
-    for (const Vector3d& p : points) {
-      starts_inside.push_back(before != curve.points.front());
-      curve_of.push_back(c);
-      sides.push_back({before, p});
-      before = p;
-    }
-  }
-  if (sides.empty() || sides.size() > kMost) return false;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const auto& side : sides) spread += (side[0] - sides[0][0]) * (side[0] - sides[0][0]).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  if (!(axes.eigenvalues()[0] <= kFlat * axes.eigenvalues()[2])) return false;
-  std::vector<Segment> flat;
-  for (const auto& side : sides)
-    flat.push_back({axes.eigenvectors().rightCols<2>().transpose() * side[0],
-                    axes.eigenvectors().rightCols<2>().transpose() * side[1]});
-  for (std::size_t i = 0; i < flat.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (cross(flat[i], flat[j]) ||
-          (curve_of[i] != curve_of[j] && meet_inside(flat[i], starts_inside[i], flat[j], starts_inside[j])))
-        return true;
-  return false;
 }
 
 DivisionReport report_on(const CurveModel& model) {
@@ -258,7 +164,7 @@ DivisionReport divide_curves(const DivisionTask& task) {
     stubborn.insert(others.begin(), others.end());
     if (!others.empty()) continue;
     if (std::any_of(model->surfaces.begin(), model->surfaces.end(),
-                    [&](const BoundedSurface& surface) { return crosses_itself(*model, surface, plan); })) {
+                    [&](const BoundedSurface& surface) { return crosses_itself(*model, surface, plan.segments); })) {
       for (Index c = 0; c < model->curves.size(); ++c)
         if (plan.segments[c] != model->curves[c].segments) undo(model->curves[c]);
       return {};

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "gmsh/model/patches.hpp"
 #include "gmsh/model/periodic_links.hpp"
+#include "parity/sets.hpp"
 #include "quality/sides.hpp"
 
 namespace qmorph::adapter {
@@ -81,19 +81,13 @@ struct Candidate {
 /// Edges that only get a node together: those that are images of one another, on periodic curves.
 class Images {
  public:
-  explicit Images(const std::vector<Candidate>& candidates) : candidates_(candidates), parent_(candidates.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-    lonely_.assign(candidates.size(), false);
-  }
+  explicit Images(const std::vector<Candidate>& candidates)
+      : candidates_(candidates), sets_(candidates.size()), lonely_(candidates.size(), false) {}
   void join(const ModelMesh& mesh, const PeriodicLink& link);
   /// Candidates that go together, without those that miss an image.
   std::vector<std::vector<Index>> groups();
 
  private:
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
   Index find(const Edge& edge) const {
     const auto at = std::lower_bound(candidates_.begin(), candidates_.end(), edge,
                                      [](const Candidate& candidate, const Edge& e) { return candidate.edge < e; });
@@ -101,7 +95,7 @@ class Images {
   }
 
   const std::vector<Candidate>& candidates_;
-  std::vector<Index> parent_;
+  parity::Sets sets_;
   std::vector<bool> lonely_;
 };
 
@@ -120,7 +114,7 @@ void Images::join(const ModelMesh& mesh, const PeriodicLink& link) {
       if (other == kNone)
         lonely_[i] = true;
       else
-        parent_[std::max(root(i), root(other))] = std::min(root(i), root(other));
+        sets_.unite(i, other);
     }
   };
   look(link.slave, master_of);
@@ -131,8 +125,8 @@ std::vector<std::vector<Index>> Images::groups() {
   std::map<Index, std::vector<Index>> members;
   std::set<Index> lonely;
   for (Index i = 0; i < candidates_.size(); ++i) {
-    members[root(i)].push_back(i);
-    if (lonely_[i]) lonely.insert(root(i));
+    members[sets_.root(i)].push_back(i);
+    if (lonely_[i]) lonely.insert(sets_.root(i));
   }
   std::vector<std::vector<Index>> groups;
   for (auto& [first, group] : members)
@@ -158,23 +152,6 @@ void make_link(const std::vector<Candidate>& candidates, const std::vector<Index
   graph.edges.push_back(std::move(edges));
 }
 
-/// Regions of triangles that nothing separates: the smallest triangle of each is its root.
-class Regions {
- public:
-  explicit Regions(Index triangles) : parent_(triangles) { std::iota(parent_.begin(), parent_.end(), 0); }
-  Index root(Index t) {
-    while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
-    return t;
-  }
-  void unite(Index t, Index u) {
-    t = root(t), u = root(u);
-    parent_[std::max(t, u)] = std::min(t, u);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 }  // namespace
 
 std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b) {
@@ -193,7 +170,7 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
     return edge.size() == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
            !fixed.contains(s.low, s.high);
   };
-  Regions regions(triangles);
+  parity::Sets regions(triangles);  // triangles that nothing separates
   for_each_edge(sides, [&](std::span<const SurfaceSide> edge) {
     if (is_inside(edge)) regions.unite(edge[0].triangle, edge[1].triangle);
   });
