@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "space/background.hpp"
 #include "space/corners.hpp"
 #include "space/element_sides.hpp"
@@ -14,7 +15,7 @@ namespace qmorph::space {
 
 /// The normals of a surface by which elements on it are judged: at a corner that of the triangle closest to the point a
 /// quarter of the way to the element's centre, so that a corner on a crease is judged by its own side.
-class SurfaceNormals {
+class QMORPH_API SurfaceNormals {
  public:
   /// The surface must outlive this. Cost: linear where it is smooth, else n log n.
   explicit SurfaceNormals(const Background& surface);
