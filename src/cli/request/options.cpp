@@ -46,6 +46,8 @@ constexpr std::array kRows = {
     Row{"tikz", "--tikz FILE", 1, "the same for LaTeX (TikZ)"},
     Row{"stage", "--stage NAME", 1, "for pictures: input, front, elimination, smoothing, cleanup or final (default)"},
     Row{"colour", "--colour NAME", 1, "for pictures: sj (scaled Jacobian, default), eta, thesis, size or none"},
+    Row{"from", "--from WHERE", 1,
+        "for pictures, and pages in space: seen from x, y or z, with a minus from the other side, or from X,Y,Z"},
     Row{"views", "--views", 0, "write the figures into OUT as data that Gmsh shows, or beside it (.pos)"},
     Row{"view", "--view", 0, "show OUT in Gmsh's window"},
     Row{"gui", "--gui", 0, "Gmsh's window on IN, or on nothing, with a panel: convert, back, step by step, save"},

@@ -92,6 +92,7 @@ void add_side_files(CLI::App& app, Request& request) {
   app.add_option("--tikz", request.tikz);
   app.add_option("--stage", request.stage);
   app.add_option("--colour", request.colour);
+  app.add_option("--from", request.from);
   app.add_flag("--views", request.views);
   app.add_flag("--view", request.view);
   app.add_flag("--gui", request.gui);
