@@ -25,9 +25,9 @@ struct Item {
 };
 
 /// Goes through the words of the command line.
-class Reader {
+class Arguments {
  public:
-  explicit Reader(const Words& words) : words_(words) {}
+  explicit Arguments(const Words& words) : words_(words) {}
 
   bool is_at_end() const { return at_ == words_.size(); }
 
@@ -75,8 +75,8 @@ Request parse(const Words& arguments) {
   request.verbosity = kDefaultVerbosity;
   Words files;
   std::vector<std::string_view> given;  // our options, as --help spells them
-  for (Reader reader(arguments); !reader.is_at_end();) {
-    const Item item = reader.next();
+  for (Arguments left(arguments); !left.is_at_end();) {
+    const Item item = left.next();
     if (!item.option) {
       files.push_back(item.word);
       continue;
