@@ -24,6 +24,7 @@ struct Request {
   std::string depfile;                         ///< for a rule of make
   std::string svg, pdf, tikz;                  ///< files for pictures
   std::string stage = "final", colour = "sj";  ///< of the pictures
+  std::string from;                            ///< from where pictures and pages are seen, or empty
   std::vector<std::string> merged;             ///< further files, merged with the input
   std::string consumer;                        ///< of --for
   std::string elements;                        ///< family of a deck's surface elements; empty: the mesh decides
