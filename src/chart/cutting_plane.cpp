@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "chart/topology.hpp"
+#include "geometry/cut_cost.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -14,10 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kShifts[] = {0, -0.08, 0.08, -0.16, 0.16};  ///< of the share
-/// Each end of the curve costs this share of the extent, and so much more the flatter it meets the outline: a wedge is
-/// no place for quads.
-constexpr double kEndCost = 0.02, kFlatCost = 0.5;
-constexpr double kSquare = 0.9;  ///< a sine from which on an end is no wedge
 /// A plane that has less than this of the wanted share behind it does not cut.
 constexpr double kLeastShare = 0.3;
 /// Costs are estimated from so many faces.
@@ -118,7 +115,7 @@ class Chooser {
       if ((plane.distance(side.from) < 0) == (plane.distance(side.to) < 0)) continue;
       const Vector3d along = plane.normal.cross(side.normal).normalized();
       const double sine = along.cross((side.to - side.from).normalized()).norm();
-      cost += extent * (kEndCost + kFlatCost * std::max(0.0, kSquare - sine));
+      cost += extent * cost_of_cut_end(sine);
     }
     return cost;
   }

@@ -144,16 +144,14 @@ void collect_around(const Mesh& mesh, Index h, std::vector<Index>& nodes) {
 
 std::vector<Candidate> candidates_around(const Mesh& mesh, const Score& score, Index v, int least) {
   std::vector<Candidate> found;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     add_turns(mesh, score, h, least, found);
     if (mesh.is_quad(mesh.face(h))) {
       add_closes(mesh, score, h, least, found);
       add_turns(mesh, score, mesh.next(h), least, found);
       add_turns(mesh, score, mesh.next(mesh.next(h)), least, found);
     }
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   add_opens(mesh, score, v, least, found);
   add_star_removals(mesh, score, v, least, found);
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });

@@ -101,12 +101,10 @@ class Repair {
   /// Where something has changed, what failed may succeed.
   void forgive_around(Index v) {
     if (!mesh_.is_live_vertex(v)) return;
-    Index h = mesh_.out(v);
-    do {
+    for (Index h : mesh_.around(v)) {
       const Index f = mesh_.face(h);
       if (f != kNone && f < failed_.size()) failed_[f] = false;
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
+    }
   }
 
   bool improve(Index f) {

@@ -81,9 +81,7 @@ class Search {
       queue.pop();
       if (cost != cost_[f]) continue;
       if (f != start && mesh_.is_triangle(f) && skip-- == 0) path = trace(start, f);
-      const Index first = mesh_.half_edge(f);
-      Index h = first;
-      do {
+      for (Index h : mesh_.sides_of(f)) {
         const Index beyond = mesh_.face(Mesh::twin(h));
         if (beyond != kNone && beyond != start) {
           const unsigned there = cost + 1 + penalty_[beyond];
@@ -94,8 +92,7 @@ class Search {
             queue.push({there, beyond});
           }
         }
-        h = mesh_.next(h);
-      } while (h != first);
+      }
     }
     for (Index f : reached) came_by_[f] = kNone, cost_[f] = 0;
     mesh_.add_work(reached.size());

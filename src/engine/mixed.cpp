@@ -82,12 +82,10 @@ void spread(Mesh& mesh, const std::vector<Index>& nodes) {
       if (!mesh.is_free(v)) continue;
       Vec2 sum = Vec2::Zero();
       int count = 0;
-      Index h = mesh.out(v);
-      do {
+      for (Index h : mesh.around(v)) {
         sum += mesh.point(mesh.target(h));
         ++count;
-        h = mesh.rotate_ccw(h);
-      } while (h != mesh.out(v));
+      }
       mesh.set_point(v, sum / count);
     }
 }

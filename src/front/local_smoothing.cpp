@@ -94,13 +94,11 @@ double ideal_distance(const Mesh& mesh, const Surrounding& s) {
   const Index v = mesh.origin(s.outgoing);
   double sum = 0;
   int edges = 0;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     const bool is_behind = mesh.target(h) == s.behind;
     const bool is_ahead = mesh.is_triangle(mesh.face(h)) && mesh.is_triangle(mesh.face(Mesh::twin(h)));
     if (ratio > kStrongTransition || is_behind || is_ahead) sum += mesh.length(h), ++edges;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return edges ? sum / edges : 0.5 * (l1 + l2);
 }
 
@@ -218,11 +216,7 @@ void smooth_around(Step& step, Index face) {
   for (std::size_t i = 0; i < corners; ++i) {
     const Index v = nodes[i];
     if (!smooth_node(step, v)) continue;
-    Index e = mesh.out(v);
-    do {
-      note(mesh.target(e));
-      e = mesh.rotate_ccw(e);
-    } while (e != mesh.out(v));
+    for (Index e : mesh.around(v)) note(mesh.target(e));
   }
   for (std::size_t i = corners; i < nodes.size(); ++i) smooth_node(step, nodes[i]);
 }

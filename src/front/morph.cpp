@@ -151,11 +151,8 @@ class Morph {
   void join(Index a, Index b) {
     if (!mesh_.is_live_vertex(a) || !mesh_.is_live_vertex(b)) return;
     Index loop = kNone;
-    Index h = mesh_.out(a);
-    do {
+    for (Index h : mesh_.around(a))
       if (front_.contains(h)) loop = h;
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(a));
     colours_.join(a, b, loop);
   }
 
@@ -240,11 +237,7 @@ class Morph {
 
   bool has_many_quads(Index v) const {
     int quads = 0;
-    Index h = mesh_.out(v);
-    do {
-      quads += mesh_.is_quad(mesh_.face(h));
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
+    for (Index h : mesh_.around(v)) quads += mesh_.is_quad(mesh_.face(h));
     return quads >= 5;
   }
 

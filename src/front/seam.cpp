@@ -14,31 +14,22 @@ constexpr int kFewestQuads = 3;
 
 int quads_around(const Mesh& mesh, Index v) {
   int quads = 0;
-  Index h = mesh.out(v);
-  do {
-    quads += mesh.is_quad(mesh.face(h));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  for (Index h : mesh.around(v)) quads += mesh.is_quad(mesh.face(h));
   return quads;
 }
 
 /// Gives every front edge at v the level of the front that it continues.
 void inherit_level(Step& step, Index v, unsigned level) {
   const Mesh& mesh = step.mesh;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     for (Index e : {h, Mesh::twin(h)})
       if (step.front.contains(e)) step.front.set_level(e, level);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
 }
 
 Index some_quad_around(const Mesh& mesh, Index v) {
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v))
     if (mesh.is_quad(mesh.face(h))) return mesh.face(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
   return kNone;
 }
 

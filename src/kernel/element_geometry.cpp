@@ -90,22 +90,15 @@ double Mesh::smallest_sine(Index f) const {
 
 double Mesh::smallest_sine_around(Index v) const {
   double smallest = 1;
-  Index h = out(v);
-  do {
+  for (Index h : around(v))
     if (face(h) != kNone) smallest = std::min(smallest, smallest_sine(face(h)));
-    h = rotate_ccw(h);
-  } while (h != out(v));
   return smallest;
 }
 
 double Mesh::mean_edge(Index v) const {
   double sum = 0;
   int edges = 0;
-  Index h = out(v);
-  do {
-    sum += length(h), ++edges;
-    h = rotate_ccw(h);
-  } while (h != out(v));
+  for (Index h : around(v)) sum += length(h), ++edges;
   return sum / edges;
 }
 

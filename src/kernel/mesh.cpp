@@ -101,11 +101,8 @@ std::vector<Index> Mesh::valences() const {
 }
 
 Index Mesh::find(Index a, Index b) const {
-  Index h = out(a);
-  do {
+  for (Index h : around(a))
     if (target(h) == b) return h;
-    h = rotate_ccw(h);
-  } while (h != out(a));
   return kNone;
 }
 
@@ -309,53 +306,6 @@ Index Mesh::open_quad(Index h, Index k, Vec2 p) {
   return w;
 }
 
-std::vector<Index> Mesh::pillow(const std::vector<Index>& loop, double share) {
-  //   v0--b0--v1            The half-edges b of the loop go over to the new quads; n take their place
-  //   |s0     |s1           in the faces inside.
-  //   w0--n0--w1
-  const std::size_t size = loop.size();
-  std::vector<Index> copies(size), inner(size), spokes(size);
-  std::vector<std::vector<Index>> moved(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    const Index back = twin(loop[(i + size - 1) % size]);
-    Vec2 centre = Vec2::Zero();
-    int corners = 0;
-    for (Index e = loop[i];; e = rotate_ccw(e)) {
-      if (e != loop[i]) moved[i].push_back(e);
-      centre += point(target(e)), ++corners;
-      if (rotate_ccw(e) == back) break;
-    }
-    centre += point(target(back)), ++corners;
-    const Vec2& p = point(origin(loop[i]));
-    copies[i] = new_vertex(p + share * (centre / corners - p));
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    inner[i] = new_edge(copies[i], copies[(i + 1) % size]);
-    spokes[i] = new_edge(origin(loop[i]), copies[i]);
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t before = (i + size - 1) % size, after = (i + 1) % size;
-    const Index b = loop[i], f = face(b), old_prev = prev(b), old_next = next(b);
-    // A neighbour in the loop has been, or will be, replaced as well.
-    link(old_prev == loop[before] ? inner[before] : old_prev, inner[i]);
-    if (old_next != loop[after]) link(inner[i], old_next);
-    set_face(inner[i], f);
-    edit_face(f).half_edge = inner[i];
-    for (Index e : moved[i]) edit_half_edge(e).origin = copies[i];
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t after = (i + 1) % size;
-    const Index quad = new_face(), b = loop[i];
-    link(b, spokes[after]), link(spokes[after], twin(inner[i]));
-    link(twin(inner[i]), twin(spokes[i])), link(twin(spokes[i]), b);
-    for (Index e : {b, spokes[after], twin(inner[i]), twin(spokes[i])}) set_face(e, quad);
-    edit_face(quad) = {b, 4};
-    set_out(copies[i], inner[i]);
-    if (origin(out(origin(b))) != origin(b)) set_out(origin(b), b);
-  }
-  return copies;
-}
-
 Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside) {
   auto& [sides, corners, inner, origins] = scratch_;
   sides.assign(ring.begin(), ring.end());
@@ -365,15 +315,12 @@ Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside
   std::sort(corners.begin(), corners.end());
   const auto on_ring = [&sides = sides](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
   for (Index f : inside) {
-    const Index start = half_edge(f);
-    Index h = start;
-    do {
+    for (Index h : sides_of(f)) {
       if (!on_ring(h)) {
         origins.push_back(origin(h));
         if ((h & 1) == 0) inner.push_back(h);
       }
-      h = next(h);
-    } while (h != start);
+    }
   }
   for (Index r : ring) {
     const Index v = origin(r);

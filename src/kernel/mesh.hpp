@@ -11,6 +11,7 @@
 ///   - a dead element is reachable from nothing
 
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,38 @@ struct Vertex {
 struct Face {
   Index half_edge = kNone;
   Index degree = 0;
+};
+
+class Mesh;
+
+/// Half-edges that follow one another until the first comes again, for `for (Index h : mesh.around(v))`. The mesh must
+/// not be edited meanwhile.
+template <Index (Mesh::*following)(Index) const>
+class Circle {
+ public:
+  class Iterator {
+   public:
+    Iterator(const Mesh& mesh, Index first) : mesh_(mesh), first_(first), at_(first) {}
+    Index operator*() const { return at_; }
+    Iterator& operator++() {
+      at_ = (mesh_.*following)(at_);
+      is_begin_ = false;
+      return *this;
+    }
+    bool operator==(std::default_sentinel_t) const { return at_ == first_ && !is_begin_; }
+
+   private:
+    const Mesh& mesh_;
+    Index first_, at_;
+    bool is_begin_ = true;
+  };
+  Circle(const Mesh& mesh, Index first) : mesh_(mesh), first_(first) {}
+  Iterator begin() const { return {mesh_, first_}; }
+  std::default_sentinel_t end() const { return {}; }
+
+ private:
+  const Mesh& mesh_;
+  Index first_;
 };
 
 class Mesh {
@@ -64,17 +97,16 @@ class Mesh {
   /// The outgoing half-edge that follows h counter-clockwise around its origin.
   Index rotate_ccw(Index h) const { return twin(prev(h)); }
   Index rotate_cw(Index h) const { return next(twin(h)); }
+  /// The half-edges that leave v, counter-clockwise; from the boundary's one, if there is one.
+  Circle<&Mesh::rotate_ccw> around(Index v) const { return {*this, out(v)}; }
+  /// The half-edges of a face, counter-clockwise.
+  Circle<&Mesh::next> sides_of(Index f) const { return {*this, half_edge(f)}; }
   Vec2 vector(Index h) const { return point(target(h)) - point(origin(h)); }
   double length(Index h) const { return vector(h).norm(); }
   /// Calls visit(v) for the corners of a face, in their order.
   template <class Visit>
   void for_nodes_of(Index f, const Visit& visit) const {
-    const Index start = half_edge(f);
-    Index h = start;
-    do {
-      visit(origin(h));
-      h = next(h);
-    } while (h != start);
+    for (Index h : sides_of(f)) visit(origin(h));
   }
   /// Edges at v, or `kManyEdges` for so many and more: those who ask want to tell few, and walking round a fan each
   /// time is quadratic.
@@ -175,6 +207,7 @@ class Mesh {
   void check_commits(bool on) { checks_commits_ = on; }
 
  private:
+  struct Pillow;
   template <std::size_t N>
   void build(const std::vector<Vec2>& points, const std::vector<std::array<Index, N>>& faces,
              const std::vector<bool>& open);

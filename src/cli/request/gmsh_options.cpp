@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 
+#include "cli/request/value.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::cli {
@@ -136,8 +136,8 @@ constexpr std::array<std::string_view, 17> kMeshing = {
     "edgelmin", "bgm",     "Mesh.Algorithm", "Mesh.Smoothing", "Mesh.RandomFactor"};
 
 bool is_number(const std::string& text) {
-  double value = 0;
-  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+  const auto number = to_number(text);
+  return number && std::isfinite(*number);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct Request {
   std::string against;  ///< file with the mesh that --check measures distances to, or empty
   std::vector<int> surfaces;
   std::string smoothing;              ///< the method, or empty
-  std::string layers = "on";          ///< or "off"
+  bool layers = true;                 ///< rows of triangles along walls stay rows
   std::optional<double> crease;       ///< angle in degrees
   std::vector<std::string> settings;  ///< NAME=VALUE for set_option()
   int verbosity = 0;

@@ -111,7 +111,15 @@ class Collector {
   void add_entity(const EntityMesh& entity);
   void complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups);
   void add_links();
+  /// What there is, of what readers ask for.
+  struct Census {
+    std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
+    std::size_t curved_quads_with_middle = 0, curved_quads_without_middle = 0;
+    std::set<int> orders;
+  };
+  Census count_elements() const;
   void complain_of_elements();
+  void complain_of_middle_nodes(const Census& census);
   void complain_of_names();
   void complain_of_height();
   bool is_inner_line(const ElementBlock& block, std::size_t i) const;
@@ -192,46 +200,56 @@ void Collector::complain_of_names() {
         fmt::format("{} wants physical surfaces to be named M1, M2, ..., and there is {}", consumer_.title, wrong));
 }
 
-void Collector::complain_of_elements() {
-  std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
-  int order = 1;
-  std::set<int> orders;
+/// How many elements of each kind the reader would get.
+Collector::Census Collector::count_elements() const {
+  Census census;
   std::map<int, ElementType> types;
   for (const ConsumerElement& element : result_.elements) {
     if (!types.count(element.type)) types[element.type] = element_type(element.type);
     const ElementType& type = types.at(element.type);
-    if (element.dim == 2 && type.corners == 3) ++triangles;
-    if (element.dim == 3) ++volumes;
-    if (element.dim == 1 && !element.groups.empty()) ++grouped_lines;
-    order = std::max(order, type.order);
-    if (element.dim > 0) orders.insert(type.order);
-    if (element.dim == 2 && type.corners == 4 && type.order > 1 && type.incomplete() != consumer_.wants_incomplete &&
-        consumer_.max_order > 1 && consumer_.name != "elmer")
-      ++types[-1].nodes;
+    const bool is_quad = element.dim == 2 && type.corners == 4;
+    census.triangles += element.dim == 2 && type.corners == 3;
+    census.volumes += element.dim == 3;
+    census.grouped_lines += element.dim == 1 && !element.groups.empty();
+    census.curved_quads_without_middle += is_quad && type.order > 1 && type.incomplete();
+    census.curved_quads_with_middle += is_quad && type.order > 1 && !type.incomplete();
+    if (element.dim > 0) census.orders.insert(type.order);
   }
+  return census;
+}
+
+void Collector::complain_of_elements() {
+  const Census census = count_elements();
   const auto say = [&](const std::string& what) { result_.complaints.push_back(what); };
-  if (triangles && consumer_.only_quads)
+  if (census.triangles && consumer_.only_quads)
     say(fmt::format(
         "{} triangle{} left, and {} wants quads alone; an even number of sides around each surface leaves none",
-        triangles, triangles == 1 ? " is" : "s are", consumer_.title));
-  if (!volumes && consumer_.needs_volumes)
+        census.triangles, census.triangles == 1 ? " is" : "s are", consumer_.title));
+  if (!census.volumes && consumer_.needs_volumes)
     say(fmt::format(
         "there are no cells of dimension 3, and {} reads no others; extrude the quads by one layer, or use -3",
         consumer_.title));
-  if (!grouped_lines && consumer_.needs_curve_groups)
+  if (!census.grouped_lines && consumer_.needs_curve_groups)
     say(fmt::format("no curve is in a physical group, and {} would have no marker", consumer_.title));
-  if (order > consumer_.max_order)
+  if (const int order = census.orders.empty() ? 1 : *census.orders.rbegin(); order > consumer_.max_order)
     say(fmt::format("its elements are of order {}, and {} takes order {} at most", order, consumer_.title,
                     consumer_.max_order));
-  if (orders.size() > 1)
-    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(orders, " and "),
+  if (census.orders.size() > 1)
+    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(census.orders, " and "),
                     consumer_.title));
   if (consumer_.specfem_names) complain_of_names();
-  if (types.count(-1))
-    say(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})", consumer_.title,
-                    consumer_.wants_incomplete ? "8" : "9", consumer_.wants_incomplete ? 1 : 0));
+  complain_of_middle_nodes(census);
   if (consumer_.name == "mfem" && signs_.size() > 1)
     say("some surfaces are in a physical group and some are not: a non-positive element attribute for MFEM");
+}
+
+/// Quads of order 2 have 8 nodes, or 9 with the one in the middle.
+void Collector::complain_of_middle_nodes(const Census& census) {
+  if (consumer_.max_order < 2 || consumer_.name == "elmer") return;  // it takes both
+  if (!(consumer_.wants_incomplete ? census.curved_quads_with_middle : census.curved_quads_without_middle)) return;
+  result_.complaints.push_back(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})",
+                                           consumer_.title, consumer_.wants_incomplete ? "8" : "9",
+                                           consumer_.wants_incomplete ? 1 : 0));
 }
 
 void Collector::complain_of_height() {
