@@ -177,3 +177,13 @@ TEST_CASE("divide: regions that embedded curves cut off are even, each for itsel
       "Point(5) = {0.5, 0.3, 0, 0.15}; Point(6) = {1.2, 0.3, 0, 0.15}; Point(7) = {0.8, 0.8, 0, 0.15};\n"
       "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 5}; Line(8) = {1, 5}; Curve{5:8} In Surface{1};\n");
 }
+
+TEST_CASE("divide: a curve of no surface that happens to part one leaves both parts even") {
+  const Converted converted = convert(
+      "Point(1) = {0, 0, 0}; Point(2) = {0.2, 0, 0}; Point(3) = {0.2, 3.2, 0};\n"
+      "Point(4) = {0.2, 4.8, 0}; Point(5) = {0, 4.8, 0}; Point(6) = {0, 3.2, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};\n"
+      "Line(7) = {3, 6}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1}; Transfinite Curve {1, 4} = 3;\n"
+      "Transfinite Curve {7} = 2; Transfinite Curve {2, 6} = 9; Transfinite Curve {3, 5} = 5;\n");
+  CHECK(segments(converted.snapshot, 7) == 2);  // 19 and 11 sides otherwise
+}
