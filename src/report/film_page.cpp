@@ -24,14 +24,14 @@ struct PlacedFilm {
 };
 
 /// Directions in which films are laid out flat.
-struct Plane {
+struct PageAxes {
   Eigen::Vector3d origin, right, up;
   Vec2 flat(const Eigen::Vector3d& d) const { return {d.dot(right), d.dot(up)}; }
 };
 
 Eigen::Vector3d normal_of(const Film& film) { return film.axis_u.cross(film.axis_v).stableNormalized(); }
 
-Plane plane_of(const Film& film) {
+PageAxes axes_of(const Film& film) {
   Eigen::Vector3d normal = normal_of(film);
   if (normal.z() > -1e-6 && std::abs(normal.z()) > 0.999)  // as the model has it
     return {film.origin, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
@@ -47,10 +47,10 @@ bool in_one_plane(const std::vector<PlacedFilm>& films) {
                      [&](const PlacedFilm& f) { return std::abs(normal.dot(normal_of(*f.film))) > kParallel; });
 }
 
-void place(PlacedFilm& placed, const Plane& plane) {
-  placed.at = plane.flat(placed.film->origin - plane.origin);
-  placed.u = plane.flat(placed.film->axis_u);
-  placed.w = plane.flat(placed.film->axis_v);
+void place(PlacedFilm& placed, const PageAxes& axes) {
+  placed.at = axes.flat(placed.film->origin - axes.origin);
+  placed.u = axes.flat(placed.film->axis_u);
+  placed.w = axes.flat(placed.film->axis_v);
 }
 
 /// The box around a film in the plane.
@@ -66,9 +66,9 @@ void lay_out_in_a_row(std::vector<PlacedFilm>& films) {
   double x = 0;
   for (std::size_t first = 0, end; first < films.size(); first = end) {
     for (end = first; end < films.size() && films[end].surface == films[first].surface;) ++end;
-    const Plane plane = plane_of(*films[first].film);
+    const PageAxes axes = axes_of(*films[first].film);
     Eigen::AlignedBox2d box;
-    for (std::size_t i = first; i < end; ++i) place(films[i], plane), box.extend(box_of(films[i]));
+    for (std::size_t i = first; i < end; ++i) place(films[i], axes), box.extend(box_of(films[i]));
     for (std::size_t i = first; i < end; ++i) films[i].at += Vec2(x, 0) - box.min();
     x += (1 + kGap) * box.sizes().x();
   }
@@ -83,8 +83,8 @@ std::vector<PlacedFilm> placed_films(const ModelReport& model, const Recorder& r
   if (!in_one_plane(films)) {
     lay_out_in_a_row(films);
   } else {
-    const Plane plane = plane_of(*films.front().film);
-    for (PlacedFilm& film : films) place(film, plane);
+    const PageAxes axes = axes_of(*films.front().film);
+    for (PlacedFilm& film : films) place(film, axes);
   }
   // Numbers on the page have 32 bits: the middle is the origin.
   Eigen::AlignedBox2d box;

@@ -74,7 +74,7 @@ void check_places(const Request& request, Given given) {
     throw UsageError("--elements goes with --for calculix or abaqus");
   if (any(given, std::array{"--stage", "--colour"}) && !request.wants_picture())
     throw UsageError("--stage and --colour are for pictures: --svg, --pdf or --tikz");
-  if (given("--from") && !request.wants_picture() && request.report.empty() && request.film.empty())
+  if (has(given, "--from") && !request.wants_picture() && request.report.empty() && request.film.empty())
     throw UsageError("--from is for pictures and pages: --svg, --pdf, --tikz, --report or --film");
   if (!request.depfile.empty() && (request.output == "-" || (request.output.empty() && request.input == "-")))
     throw UsageError("--depfile: a rule for make needs a target; give -o a name");

@@ -69,7 +69,7 @@ void make_meshable(int volume) {
   for (int group : groups) add_to_group(3, group, {volume});
 }
 
-/// Gmsh's words, with what to do where it is known.
+/// Gmsh's words, and what to do about it where that is known.
 [[noreturn]] void refuse(const StageLog& log) {
   const auto said = [&](const char* words) {
     return std::any_of(log.errors.begin(), log.errors.end(),
