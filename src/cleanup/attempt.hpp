@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// One change of connectivity, judged by what the mesh is worth after a guarded relaxation.
+
+#include <vector>
+
+#include "cleanup/operations.hpp"
+#include "qmorph/options.hpp"
+
+namespace qmorph::cleanup {
+
+/// Shapes of the faces around some nodes, by their scaled Jacobians.
+struct Worth {
+  double worst = 1, mean = 1;
+  std::size_t faces = 0;
+};
+Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+
+/// The faces by their scaled Jacobians, the smallest first.
+std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces);
+
+/// Nodes of the faces that a candidate starts from.
+std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
+
+/// Carries out `edit(nodes)`, which changes the topology and appends the nodes around, removes the doublets that
+/// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`. Otherwise the mesh is
+/// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after.
+template <class Edit, class Accept>
+bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
+             std::vector<Index>& nodes, const Edit& edit, const Accept& accept);
+
+}  // namespace qmorph::cleanup
+
+#include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
+
+namespace qmorph::cleanup {
+
+template <class Edit, class Accept>
+bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
+             std::vector<Index>& nodes, const Edit& edit, const Accept& accept) {
+  const Worth before = worth_around(mesh, near);
+  nodes.clear();
+  mesh.add_work(before.faces);
+  mesh.begin();
+  bool kept = edit(nodes);
+  if (kept) {
+    topology::remove_doublets(mesh, nodes);
+    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings);
+  }
+  if (kept) {
+    const Worth after = worth_around(mesh, nodes);
+    mesh.add_work(after.faces);
+    kept = accept(before, after);
+  }
+  kept ? mesh.commit() : mesh.rollback();
+  return kept;
+}
+
+}  // namespace qmorph::cleanup
