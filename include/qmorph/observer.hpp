@@ -58,6 +58,8 @@ struct FrontStart {
   FlatFrame frame;
   double corner_angle = 0;                  ///< an end of a front edge is a corner below it, in radians
   std::span<const Eigen::Vector2d> points;  ///< by node; NaN where there is none
+  /// Of a curved surface: where the nodes are in the model, which no frame says. Empty for planar ones.
+  std::span<const Eigen::Vector3d> places;
   /// By number: corners counter-clockwise; of a triangle the last is kNone, where there is no face the first.
   std::span<const std::array<Index, 4>> faces;
   std::span<const FrontEdge> edges;

@@ -66,6 +66,7 @@ void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Deci
   settings.observer = options_.observer;
   settings.decisions = decisions;
   settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
+  if (options_.observer) settings.lift = plane.curved;
   if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
   report_.front_quads += count_faces(mesh, 4);
   report_.leftover_triangles += count_faces(mesh, 3);

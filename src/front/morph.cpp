@@ -34,8 +34,8 @@ class Morph {
   }
 
   /// Before run().
-  void watch(Observer& observer, const FlatFrame& frame) {
-    reporter_.emplace(mesh_, front_, states_, options_.corner_angle, observer, frame);
+  void watch(const MorphSettings& settings) {
+    reporter_.emplace(mesh_, front_, states_, options_.corner_angle, settings);
     if (!reporter_->is_watched()) reporter_.reset();
   }
 
@@ -325,7 +325,7 @@ class Morph {
 
 std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options, const MorphSettings& settings) {
   Morph morph(mesh, options, settings.check_each_step, settings.decisions);
-  if (settings.observer) morph.watch(*settings.observer, settings.frame);
+  if (settings.observer) morph.watch(settings);
   return morph.run(settings.progress);
 }
 

@@ -68,6 +68,8 @@ class MeshOnSurface {
   /// All corners have larger sines than this, and turn so clearly the way the surface does at the nodes that looking
   /// closer is not needed.
   bool is_clearly_above(Index face, double sine) const;
+  /// exact_sine(), by smallest_sine() where looking closer is not needed.
+  double sure_sine(Index face) const;
   /// Of the faces around a node.
   double smallest_sine_around(Index v) const;
   /// The one that counts, by the surface's normals near the corners.

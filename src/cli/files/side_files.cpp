@@ -86,12 +86,13 @@ report::Wishes what_to_keep(const Request& request) {
 std::vector<SideFile> make_side_files(const Request& request, const report::Scene& before, const ModelReport& model,
                                       const report::Recorder& recorder, const report::RunFacts& facts) {
   std::vector<SideFile> files;
+  const report::Viewpoint from = wanted_viewpoint(request);
   if (!request.stats.empty()) files.push_back({request.stats, report::stats_json(model, recorder, facts)});
-  if (!request.film.empty()) files.push_back({request.film, report::film_page(model, recorder, facts)});
+  if (!request.film.empty()) files.push_back({request.film, report::film_page(model, recorder, facts, from)});
   if (request.report.empty() && !request.wants_picture()) return files;
   const report::Scene after = read_scene();
   if (!request.report.empty())
-    files.push_back({request.report, report::report_page(before, after, model, recorder, facts)});
+    files.push_back({request.report, report::report_page(before, after, model, recorder, facts, from)});
   if (request.wants_picture()) add_pictures(request, after, model, recorder, files);
   return files;
 }
