@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -72,6 +73,24 @@ TEST_CASE("a volume with elements that are turned over is mended by nodes inside
     CHECK(after.tags == mesh.tags);
     for (Index row = 0; row < after.points.size(); ++row)
       if (&mesh.entities[mesh.owner[row]] != &volume) CHECK(after.points[row] == mesh.points[row]);
+  }
+}
+
+TEST_CASE("a small element that is turned over among large ones is mended, too") {
+  for (double power : {3.0, 6.0, 9.0}) {
+    CAPTURE(power);
+    const Session session;
+    build_tetrahedra();
+    ModelMesh mesh = read_model_mesh();
+    const EntityMesh& volume = *find_entity(mesh, 3, 1);
+    for (auto& p : mesh.points) p.x() = std::pow(p.x(), power);  // layers, the first one very thin
+    CHECK(find_turned(read_solid(mesh, volume)).empty());
+    for (std::size_t tag : volume.node_tags)
+      if (auto& p = mesh.points[mesh.rows.find(tag)]; p.x() < std::pow(0.3, power)) p.x() = -p.x();
+    Solid solid = read_solid(mesh, volume);
+    const std::vector<std::size_t> turned = find_turned(solid);
+    REQUIRE_FALSE(turned.empty());
+    CHECK(untangle(solid, turned).empty());
   }
 }
 
