@@ -123,8 +123,10 @@ class QMORPH_API Observer {
  public:
   virtual ~Observer() = default;
 
-  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large one, or once more with
-  /// other constants of a small one. Who is returned sees its steps; null: nobody does. Fronts run side by side: may be
+  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large region, or of a small
+  /// region once more with other constants. The observer that is returned sees its steps; null: none does. Fronts run
+  /// side by
+  /// side: may be
   /// called from several threads at a time.
   virtual std::unique_ptr<FrontObserver> front_starts(const FrontStart&) { return nullptr; }
 

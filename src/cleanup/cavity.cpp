@@ -9,7 +9,7 @@ namespace {
 
 void next_round(std::uint32_t& round, std::vector<std::uint32_t>& marks) {
   if (++round != 0) return;
-  marks.assign(marks.size(), 0);  // those of four thousand million rounds ago would look new
+  marks.assign(marks.size(), 0);  // marks of 2^32 rounds ago would look new
   round = 1;
 }
 
@@ -88,8 +88,8 @@ void Cavity::for_new_sides(const Visit& visit) const {
   }
 }
 
-/// Sides of quads inside that have no quad inside behind them: of the outline before and of the quads that were added
-/// since. The loop through them, as long as it meets itself nowhere.
+/// The outline consists of sides of quads inside with no such quad behind them; they are sides of the previous outline
+/// or of the quads that were added since. False if they are not one loop that passes each node once.
 bool Cavity::trace_outline() {
   std::swap(outline_, old_outline_);
   outline_.clear();
@@ -139,7 +139,7 @@ bool Cavity::take_inner_nodes() {
   return are_free;
 }
 
-/// Euler's formula, V - E + F = 1; each side of a quad is an edge's half, those of the outline are whole edges.
+/// Euler's formula, V - E + F = 1. Two sides of quads make an edge, but on the outline one does.
 bool Cavity::is_disc() const {
   const std::size_t nodes = inner_.size() + outline_.size(), edges = (4 * faces_.size() + outline_.size()) / 2;
   return nodes + faces_.size() == edges + 1;

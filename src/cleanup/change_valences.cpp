@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "cleanup/node_queue.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {

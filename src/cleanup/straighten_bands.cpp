@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cleanup/band_plan.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {

@@ -220,13 +220,13 @@ bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& 
   return done;
 }
 
-/// Passes triangle f to a near partner at one go. Little room and little effort come first.
+/// Passes triangle f to a partner nearby in one go, at first with little room and little effort.
 bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget, Search& search, Index f,
                   std::span<const Effort> efforts) {
   bool done = false;
   for (const Effort& effort : efforts) {
     for (int i = 0; i < effort.chains && !done && !budget.is_spent(); ++i) {
-      // By turns the nearest partner by another way, and another partner.
+      // In turn the nearest partner along another path, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
       if (path.empty() || path.size() > kLongestChain) break;
       done = try_path(mesh, smoothing, path, path.size(), effort);
@@ -260,7 +260,7 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& b
       if (!done) f = mesh.face(path[1]);
       if (!done && !mesh.is_triangle(f)) break;
     } else {
-      // No way round to a partner next door.
+      // A partner next door is not reached by a detour.
       if (path.size() == 1 || ++failures > kMostFailures) break;
       path.push_back(Mesh::twin(path.back()));
       search.avoid(path);

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Where the number of a name stands.
+/// Where the number of that name is stored.
 using Field = std::variant<double*, int*, bool*, std::size_t*>;
 
 struct Name {
   std::string_view name;
   double least, most;
   Field (*field)(Options&);
-  double unit = 1;  ///< of what callers see, in what is stored
+  double unit = 1;  ///< stored value = unit * what callers see
 };
 
 constexpr std::array kNames = {

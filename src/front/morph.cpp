@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kStepsPerTriangle = 6;
 /// A front edge longer than this times the edges of the input ahead is split.
 constexpr double kTooLong = 2.2;
-/// Base edges that were set aside are tried again this often.
+/// How often base edges that were set aside are tried again.
 constexpr int kMostRounds = 8;
 
 class Morph {
@@ -241,7 +241,8 @@ class Morph {
     return quads >= 5;
   }
 
-  /// Quads that should share the angle at a node of the front; the side edge stands off the base edge by one of them.
+  /// How many quads should share the angle at a node of the front; the side edge is one of their angles away from the
+  /// base edge.
   static double quads_in(double angle) { return std::max(2.0, std::round(angle / (0.5 * std::numbers::pi))); }
 
   bool make_quad(const Base& at) {

@@ -70,7 +70,8 @@ bool transition_seam(Step& step, Index incoming, Index outgoing) {
   const Index gap_out = s.incoming ? outgoing : near_half;
   const Index chord = recover_edge(step, gap_in, mesh.target(gap_out));
   if (chord == kNone) return false;
-  if (form_face(step, std::array{gap_out, Mesh::twin(chord), gap_in}, kMostTrianglesInGap) == kNone) return false;
+  if (form_face(step, std::array<Index, 3>{gap_out, Mesh::twin(chord), gap_in}, kMostTrianglesInGap) == kNone)
+    return false;
   // The two triangles make a quad.
   const Index quad = mesh.face(mesh.join_faces(near_half));
   step.colours.colour_same(s.middle, k);

@@ -18,10 +18,10 @@ struct Mesh::Pillow {
 
   /// A node's copy, `share` of the way to the mean of the neighbours that it has inside and on the loop.
   void copy_node(std::size_t i, double share) {
-    const Index along = loop[i], back = twin(loop[before(i)]);
+    const HalfEdgeId along(loop[i]), back = twin(loop[before(i)]);
     Vec2 sum = mesh.point(mesh.target(along));
     int neighbours = 1;
-    for (Index e = along; e != back;) {
+    for (HalfEdgeId e = along; e != back;) {
       e = mesh.rotate_ccw(e);
       if (e != back) leaving[i].push_back(e);
       sum += mesh.point(mesh.target(e)), ++neighbours;
@@ -37,7 +37,8 @@ struct Mesh::Pillow {
 
   /// Puts n in the place of b in the face inside.
   void replace_side(std::size_t i) {
-    const Index b = loop[i], f = mesh.face(b), old_prev = mesh.prev(b), old_next = mesh.next(b);
+    const HalfEdgeId b(loop[i]), old_prev = mesh.prev(b), old_next = mesh.next(b);
+    const FaceId f = mesh.face(b);
     // A neighbour in the loop has been, or will be, replaced as well.
     mesh.link(old_prev == loop[before(i)] ? inner[before(i)] : old_prev, inner[i]);
     if (old_next != loop[after(i)]) mesh.link(inner[i], old_next);
@@ -47,13 +48,13 @@ struct Mesh::Pillow {
   }
 
   void make_quad(std::size_t i) {
-    const Index quad = mesh.new_face();
-    const std::array sides{loop[i], spokes[after(i)], twin(inner[i]), twin(spokes[i])};
+    const FaceId quad = mesh.new_face();
+    const std::array<Index, 4> sides{loop[i], spokes[after(i)], twin(inner[i]), twin(spokes[i])};
     for (std::size_t k = 0; k < 4; ++k) mesh.link(sides[k], sides[(k + 1) % 4]);
     for (Index e : sides) mesh.set_face(e, quad);
     mesh.edit_face(quad) = {loop[i], 4};
     mesh.set_out(copies[i], inner[i]);
-    const Index v = mesh.origin(loop[i]);
+    const NodeId v = mesh.origin(loop[i]);
     if (mesh.origin(mesh.out(v)) != v) mesh.set_out(v, loop[i]);  // what left v there is its copy's now
   }
 };

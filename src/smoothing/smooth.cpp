@@ -28,7 +28,7 @@ bool is_on_neighbour(const kernel::Mesh& mesh, Index v) {
   return shortest < kLeastRatio * longest;
 }
 
-/// Where very many edges meet, a ring of neighbours is no neighbourhood: with it, work on a fan would be quadratic.
+/// Where very many edges meet, neighbours are not collected: work on a fan would be quadratic.
 bool is_hub(const kernel::Mesh& mesh, Index v) {
   constexpr Index kMostValence = 24;
   return mesh.valence(v) > kMostValence;
@@ -85,11 +85,11 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   star.look_around(mesh, v);
   const Energy energy = star.energy_with_derivatives(mesh.point(v));
   if (!energy.finite) {
-    // The largest smallest area is not always the largest smallest sine: what was valid has to stay so.
+    // To maximise the smallest area is not always to maximise the smallest sine; what was valid has to stay valid.
     const Vec2 before = mesh.point(v);
     const bool was_valid = mesh.is_valid_star(v);
     untangle_node(mesh, v);
-    // Counted as dearer than it is: where very many nodes need it, smoothing is not worth its time.
+    // Counted at more than it costs: where very many nodes need it, smoothing is not worth the time.
     star.add_work(3 * star.elements() * star.elements() * star.elements());
     if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
     return (mesh.point(v) - before).norm() / edge;

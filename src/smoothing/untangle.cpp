@@ -258,11 +258,8 @@ bool has_immovable_fault(const kernel::Mesh& mesh, std::span<const Index> free_n
            !is_convex_corner(mesh.point(before), mesh.point(at), mesh.point(after), kStraightSine);
   };
   for (Index v : free_nodes) {
-    Index h = mesh.out(v);
-    do {  // the corner that v is no part of: opposite in a quad, none in a triangle
+    for (Index h : mesh.around(v))  // the corner that v is no part of: opposite in a quad, none in a triangle
       if (mesh.is_quad(mesh.face(h)) && is_bad(mesh.next(mesh.next(h)))) return true;
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(v));
   }
   return false;
 }

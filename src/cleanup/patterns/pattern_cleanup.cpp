@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cleanup/patterns/match.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 #include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
@@ -54,7 +54,7 @@ std::vector<Pattern> read(std::span<const Case> cases) {
   return patterns;
 }
 
-/// Tries compositions and keeps what the mesh is worth more with.
+/// Tries compositions and keeps those that make the mesh better.
 class Trial {
  public:
   Trial(Mesh& mesh, const SmoothingOptions& smoothing, int iterations)

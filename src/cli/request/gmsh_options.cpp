@@ -129,7 +129,7 @@ constexpr std::array<std::string_view, 21> kAlgorithms = {
     "frontal", "bamg",      "delquad", "pack",  "quadqs",  "frontopt2d", "initial2d",
     "del3d",   "front3d",   "netgen",  "mmg3d", "rtree3d", "hxt",        "initial3d"};
 
-/// What means something only where Gmsh makes elements.
+/// What matters only where Gmsh makes elements.
 constexpr std::array<std::string_view, 17> kMeshing = {
     "clmin",    "clmax",   "clscale",        "clextend",       "clcurv",           "algo",
     "smooth",   "epslc1d", "swapangle",      "rand",           "aniso_max",        "smooth_ratio",

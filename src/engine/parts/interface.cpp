@@ -69,12 +69,12 @@ bool is_on_interface(const Mesh& mesh, const Division& division, Index v) {
 /// Two triangles become four; the new ones belong to the parts of the old. Returns the new node.
 Index split_interface_edge(Mesh& mesh, Division& division, Index h) {
   const Index m = mesh.split_edge(h, 0.5 * (mesh.point(mesh.origin(h)) + mesh.point(mesh.target(h))));
-  for (Index side : {h, Mesh::twin(h)}) {
+  for (Index side : Mesh::halves_of(h)) {
     const Index from_m = mesh.origin(side) == m ? side : mesh.next(side);
     const Index part = division.part[mesh.face(from_m)];
     const Index d = mesh.split_face(from_m, mesh.next(mesh.next(from_m)));
     division.part.resize(mesh.face_slots());
-    for (Index half : {d, Mesh::twin(d)}) division.part[mesh.face(half)] = part;
+    for (Index half : Mesh::halves_of(d)) division.part[mesh.face(half)] = part;
   }
   return m;
 }

@@ -28,7 +28,7 @@ Vector3d middle_of(const Vector3d& a, const Vector3d& b, const EntityMesh& owner
     ::gmsh::model::getParametrization(1, owner.tag, {chord.x(), chord.y(), chord.z()}, u);
     ::gmsh::model::getValue(1, owner.tag, u, on_curve);
   });
-  // More sagitta than this, and a triangle beside might turn over.
+  // With more sagitta than this a triangle beside the edge might turn over.
   constexpr double kMostSagitta = 0.1;
   if (!log.errors.empty() || on_curve.size() != 3) return chord;
   const Vector3d p(on_curve[0], on_curve[1], on_curve[2]);

@@ -92,9 +92,9 @@ std::map<Edge, int> count_sides(const ModelMesh& mesh) {
   return count;
 }
 
-class Collector {
+class ConsumerMeshBuilder {
  public:
-  Collector(const Consumer& consumer, bool everything)
+  ConsumerMeshBuilder(const Consumer& consumer, bool everything)
       : consumer_(consumer), mesh_(read_model_mesh()), everything_(everything) {
     ::gmsh::vectorpair groups;
     ::gmsh::model::getPhysicalGroups(groups);
@@ -105,7 +105,7 @@ class Collector {
         if (entity.dim > 0) joined_.insert(block.nodes.begin(), block.nodes.end());
   }
 
-  ConsumerMesh collect();
+  ConsumerMesh build();
 
  private:
   void add_entity(const EntityMesh& entity);
@@ -137,18 +137,18 @@ class Collector {
   std::set<int> signs_;  // of the surfaces' groups: 1 in one, 0 in none
 };
 
-std::size_t Collector::number(std::size_t tag) {
+std::size_t ConsumerMeshBuilder::number(std::size_t tag) {
   const auto [found, is_new] = numbers_.try_emplace(tag, numbers_.size() + 1);
   if (is_new) result_.nodes.push_back(scale_ * point(tag));
   return found->second;
 }
 
-bool Collector::is_inner_line(const ElementBlock& block, std::size_t i) const {
+bool ConsumerMeshBuilder::is_inner_line(const ElementBlock& block, std::size_t i) const {
   const auto side = sides_.find(std::minmax(block.nodes[i], block.nodes[i + 1]));
   return side == sides_.end() || side->second != 1;
 }
 
-void Collector::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
+void ConsumerMeshBuilder::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
   if (groups.size() > 1 && entity.dim >= 1)
     result_.complaints.push_back(fmt::format("{} {} is in {} physical groups, and {} takes one for each element",
                                              entity.dim == 1 ? "curve" : "surface", entity.tag, groups.size(),
@@ -160,7 +160,7 @@ void Collector::complain_of_groups(const EntityMesh& entity, const std::vector<i
         fmt::format("surface {} is in no physical group, and {} wants every cell tagged", entity.tag, consumer_.title));
 }
 
-void Collector::add_entity(const EntityMesh& entity) {
+void ConsumerMeshBuilder::add_entity(const EntityMesh& entity) {
   std::vector<int> groups;
   ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
   if (entity.blocks.empty() || (groups.empty() && !everything_)) return;
@@ -181,7 +181,7 @@ void Collector::add_entity(const EntityMesh& entity) {
 }
 
 /// The converter of SPECFEM2D looks for these.
-void Collector::complain_of_names() {
+void ConsumerMeshBuilder::complain_of_names() {
   std::set<std::string> missing = {"Bottom", "Left", "Right", "Top"};
   std::string wrong;
   for (const PhysicalGroup& group : read_physical_groups()) {
@@ -201,7 +201,7 @@ void Collector::complain_of_names() {
 }
 
 /// How many elements of each kind the reader would get.
-Collector::Census Collector::count_elements() const {
+ConsumerMeshBuilder::Census ConsumerMeshBuilder::count_elements() const {
   Census census;
   std::map<int, ElementType> types;
   for (const ConsumerElement& element : result_.elements) {
@@ -218,7 +218,7 @@ Collector::Census Collector::count_elements() const {
   return census;
 }
 
-void Collector::complain_of_elements() {
+void ConsumerMeshBuilder::complain_of_elements() {
   const Census census = count_elements();
   const auto say = [&](const std::string& what) { result_.complaints.push_back(what); };
   if (census.triangles && consumer_.only_quads)
@@ -244,7 +244,7 @@ void Collector::complain_of_elements() {
 }
 
 /// Quads of order 2 have 8 nodes, or 9 with the one in the middle.
-void Collector::complain_of_middle_nodes(const Census& census) {
+void ConsumerMeshBuilder::complain_of_middle_nodes(const Census& census) {
   if (consumer_.max_order < 2 || consumer_.name == "elmer") return;  // it takes both
   if (!(consumer_.wants_incomplete ? census.curved_quads_with_middle : census.curved_quads_without_middle)) return;
   result_.complaints.push_back(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})",
@@ -252,7 +252,7 @@ void Collector::complain_of_middle_nodes(const Census& census) {
                                            consumer_.wants_incomplete ? 1 : 0));
 }
 
-void Collector::complain_of_height() {
+void ConsumerMeshBuilder::complain_of_height() {
   const double z = result_.nodes.empty() ? 0 : result_.nodes.front().z();
   if (const std::optional<Eigen::Vector3d> off = find_off_plane(result_, z))
     result_.complaints.push_back(
@@ -261,7 +261,7 @@ void Collector::complain_of_height() {
 }
 
 /// Only nodes that the reader gets.
-void Collector::add_links() {
+void ConsumerMeshBuilder::add_links() {
   for (const int dim : {0, 1, 2})
     for (PeriodicLink& link : read_periodic_links(mesh_, dim)) {
       std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -274,7 +274,7 @@ void Collector::add_links() {
     }
 }
 
-ConsumerMesh Collector::collect() {
+ConsumerMesh ConsumerMeshBuilder::build() {
   for (const EntityMesh& entity : mesh_.entities) add_entity(entity);
   if (consumer_.periodic) add_links();
   complain_of_elements();
@@ -310,7 +310,7 @@ const Consumer& find_consumer(const std::string& name) {
 }
 
 ConsumerMesh collect_for(const Consumer& consumer, bool everything) {
-  return Collector(consumer, everything).collect();
+  return ConsumerMeshBuilder(consumer, everything).build();
 }
 
 }  // namespace qmorph::adapter
