@@ -187,3 +187,27 @@ TEST_CASE("divide: a curve of no surface that happens to part one leaves both pa
       "Transfinite Curve {7} = 2; Transfinite Curve {2, 6} = 9; Transfinite Curve {3, 5} = 5;\n");
   CHECK(segments(converted.snapshot, 7) == 2);  // 19 and 11 sides otherwise
 }
+
+TEST_CASE("divide: where surfaces meet by threes in a curve, all of them are even") {
+  Rng rng(24);
+  for (int trial = 0; trial < 8; ++trial) {
+    std::string script =
+        "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1}; Box(2) = {1, 0, 0, 1, 1, 1};\n"
+        "BooleanFragments{ Volume{1:2}; Delete; }{}\n";
+    for (int point = 1; point <= 12; ++point)
+      script += fmt::format("MeshSize{{{}}} = {:.2f};\n", point, 0.15 + 0.35 * rng.uniform());
+    convert(script);
+  }
+}
+
+TEST_CASE("divide: circles that are as coarse as circles may be can have one segment more") {
+  const Converted converted = convert(
+      "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 0.1}; Rectangle(2) = {-1, -1, 0, 2, 2};\n"
+      "BooleanFragments{ Surface{1, 2}; Delete; }{}\nMeshSize{:} = 0.5;\n");
+  const adapter::ModelMesh& mesh = converted.snapshot.mesh;
+  const auto circle = std::find_if(mesh.entities.begin(), mesh.entities.end(), [](const adapter::EntityMesh& entity) {
+    return entity.dim == 1 && entity.element_count() > 4;
+  });
+  REQUIRE(circle != mesh.entities.end());
+  CHECK(circle->element_count() == 8);  // of Gmsh: 7
+}
