@@ -11,16 +11,16 @@ namespace {
 using Eigen::Vector3d;
 
 /// Centres nearer to the surface than this are there (edges); up to the second one the pull on them fades.
-constexpr double kThere = 0.003, kNear = 0.03;
+constexpr double kThere = 0.01, kNear = 0.03;
 /// Sines of corners that one edge's distance of a centre is worth.
-constexpr double kShapeCost = 0.25;
+constexpr double kShapeCost = 0.2;
 
 class Settling {
  public:
   Settling(MeshOnSurface& mesh, const SmoothingOptions& options)
       : mesh_(mesh), options_(options), is_active_(mesh.nodes(), 1), way_(mesh.nodes(), Vector3d::Zero()) {
     for (Index v = 0; v < mesh.nodes(); ++v) start_.push_back(mesh.place(v));
-    for (Index f = 0; f < mesh.faces(); ++f) seats_.push_back(seat_of(f));
+    for (Index f = 0; f < mesh.faces(); ++f) seats_.push_back(seat_of(f, mesh.mesh().near[f]));
   }
 
   void run() {
@@ -36,16 +36,18 @@ class Settling {
     double distance = 0;                ///< of a quad's centre, in edges
     Vector3d slope = Vector3d::Zero();  ///< how fast it grows when the centre moves
     double sine = 1;                    ///< the smallest one
+    Index under = kNone;                ///< triangle under the centre
     double cost() const { return distance - kShapeCost * sine; }
   };
 
-  Seat seat_of(Index f) const {
+  Seat seat_of(Index f, Index hint) const {
     Seat seat;
     seat.sine = mesh_.sure_sine(f);
     if (chart::degree(mesh_.mesh().faces[f]) != 4) return seat;
     Vector3d centre = Vector3d::Zero();
     for (Index side = 4 * f; side < 4 * f + 4; ++side) centre += 0.25 * mesh_.point(mesh_.node(side));
-    const Foot foot = mesh_.surface().walk(centre, mesh_.mesh().near[f]);
+    const Foot foot = mesh_.surface().walk(centre, hint);
+    seat.under = foot.triangle;
     const double diagonal2 = (mesh_.point(mesh_.node(4 * f)) - mesh_.point(mesh_.node(4 * f + 2))).squaredNorm();
     const double edge = std::sqrt(0.5 * diagonal2), distance = std::sqrt(foot.distance2);
     if (!(distance > kThere * edge)) return seat;
@@ -108,7 +110,7 @@ class Settling {
     bool good = true;
     mesh_.for_sides_around(v, [&](Index side) {
       if (!good) return;
-      tried_.push_back(seat_of(side / 4));
+      tried_.push_back(seat_of(side / 4, seats_[side / 4].under));
       after += tried_.back().cost();
       good = tried_.back().sine >= least;
     });
