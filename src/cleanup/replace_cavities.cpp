@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cleanup/attempt.hpp"
 #include "cleanup/cavity.hpp"
 #include "cleanup/element_size.hpp"
 #include "cleanup/filling_choice.hpp"
 #include "cleanup/node_queue.hpp"
-#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {

@@ -172,7 +172,9 @@ double MeshOnSurface::sure_sine(Index f) const {
   const Face& face = mesh_.faces[f];
   for (Index i = 0; i < chart::degree(face); ++i)
     if (!whole_.is_smooth(mesh_.on[face[i]])) return exact_sine(f);
-  const auto sine = [&](const auto& p, const auto& n) { return is_clear(p, n) ? scaled_jacobian(p, n) : exact_sine(f); };
+  const auto sine = [&](const auto& p, const auto& n) {
+    return is_clear(p, n) ? scaled_jacobian(p, n) : exact_sine(f);
+  };
   return chart::degree(face) == 4 ? sine(corners<4>(face), normals<4>(f)) : sine(corners<3>(face), normals<3>(f));
 }
 

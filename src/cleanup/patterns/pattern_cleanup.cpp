@@ -6,8 +6,8 @@
 #include <ranges>
 #include <utility>
 
-#include "cleanup/patterns/match.hpp"
 #include "cleanup/attempt.hpp"
+#include "cleanup/patterns/match.hpp"
 #include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
