@@ -140,10 +140,11 @@ class Replacing {
 
 }  // namespace
 
-std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
+                             const CavityLimits& limits) {
   std::vector<Index> nodes(mesh.vertex_slots());
   std::iota(nodes.begin(), nodes.end(), Index(0));
-  Replacing replacing(mesh, smoothing, budget);
+  Replacing replacing(mesh, smoothing, budget, limits);
   replacing.run(nodes);
   if (!budget.is_spent()) replacing.replace_all();
   return replacing.changes();
