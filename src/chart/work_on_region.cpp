@@ -133,7 +133,7 @@ class Worker {
     opposite_ = opposite_sides(mesh_);
     const std::vector<bool> is_crease = sides_on(mesh_, region_.creases);
     creases_ = edges_on(mesh_, is_crease);
-    division_ = divide(mesh_, opposite_, is_crease, kMostOfChart);
+    division_ = divide(mesh_, opposite_, is_crease, kMostOfChart, straightens);
     std::vector<bool> is_interface = division_.is_cut;
     for (std::size_t side = 0; side < is_interface.size(); ++side)
       if (is_crease[side]) is_interface[side] = false;
