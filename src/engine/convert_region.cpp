@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/parts/convert_parts.hpp"
@@ -117,7 +118,10 @@ class RegionConverter {
       constexpr std::size_t kFewest = 3;                // with fewer a front has no choice
       const bool has_tries = size >= kFewest && may_try_again(size, options_);
       Attempt first = attempt(has_tries ? start_ : std::move(start_), options_, allowed_, true);
-      if (!first.fault) return has_tries ? best_of_variants(std::move(first), size) : std::move(first);
+      if (!first.fault) {
+        take_rows(first);
+        return has_tries ? best_of_variants(std::move(first), size) : std::move(first);
+      }
       fault = first.fault;
       if (!has_tries) start();
     }
@@ -141,6 +145,22 @@ class RegionConverter {
   }
 
   Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
+
+  /// A thin band as rows, if they are worth more.
+  void take_rows(Attempt& best) {
+    const std::optional<bands::Band> band = bands::find_band(region_);
+    if (!band) return;
+    constexpr double kAsGood = 0.01, kFair = 0.5;
+    for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
+      auto rows = bands::lay_rows(*band, region_.points, costs);
+      if (!rows || double(cost_) > allowed_) return;
+      Attempt laid = attempt(std::move(*rows), options_, allowed_ - double(cost_), false);
+      const Worth one = judge(laid.mesh), other = judge(best.mesh);
+      // A poor quad more is too high a price for rows.
+      if (laid.fault || one.sum() <= other.sum() || one.least < std::min(other.least - kAsGood, kFair)) continue;
+      best = std::move(laid);
+    }
+  }
 
   /// `size`: triangles that the front begins with.
   Attempt best_of_variants(Attempt best, std::size_t size) {
