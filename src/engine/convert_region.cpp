@@ -40,8 +40,8 @@ struct Worth {
   double least = 1;   ///< smallest scaled Jacobian of a quad
   double mean = 0;    ///< of shapes
   double growth = 0;  ///< quads over those that take the place of equilateral triangles with sides as long
-  /// Once the worst quad is good enough for every solver, it counts little, and the others count. Good shapes are no
-  /// art with many quads that are smaller than asked for.
+  /// Once the worst quad is good enough for every solver, it counts for little, and the others count. Many quads that
+  /// are smaller than asked for have good shapes easily, so growth counts against a result.
   double sum() const {
     constexpr double kLittle = 0.1, kFairGrowth = 1.25;
     return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
@@ -99,7 +99,7 @@ struct Front {
   std::size_t front_work, finish_work;
 };
 
-/// What an attempt costs in a region of no size.
+/// What an attempt costs however small the region is.
 constexpr std::size_t kWorkPerAttempt = 200;
 
 class RegionConverter {
@@ -173,9 +173,9 @@ class RegionConverter {
     Worth worth = judge(best.mesh);
     if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
     const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
-    // Where a boundary is all spikes an attempt may cost ten times as much as usual, and no try is better.
+    // Where a boundary is all spikes, an attempt may cost ten times as much as usual, and none is better.
     constexpr std::size_t kWorkPerTriangle = 2000;
-    const std::size_t first = cost_;  // of the attempt before all tries, which are about as dear
+    const std::size_t first = cost_;  // of the first attempt; each other one costs about as much
     for (const Options& options : variants_of(options_)) {
       triangles += size;
       if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
