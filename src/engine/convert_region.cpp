@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/front_variants.hpp"
@@ -72,6 +73,7 @@ class RegionConverter {
       } else {
         result = begin(std::move(start_), options_, allowed_);
         finish(result);
+        take_rows(result);
       }
       if (!result.fault) return result;
       fault = result.fault;
@@ -102,6 +104,23 @@ class RegionConverter {
 
   Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
 
+  /// A thin band as rows, if they are worth more.
+  void take_rows(Attempt& best) {
+    const std::optional<bands::Band> band = best.fault ? std::nullopt : bands::find_band(region_);
+    if (!band) return;
+    constexpr double kAsGood = 0.01, kFair = 0.5;
+    for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
+      auto rows = bands::lay_rows(*band, region_.points, costs);
+      if (!rows || double(cost_) > allowed_) return;
+      Attempt laid = begin(std::move(*rows), options_, allowed_ - double(cost_), Way::without_front);
+      finish(laid);
+      const Worth one = judge(laid.mesh), other = judge(best.mesh);
+      // A poor quad more is too high a price for rows.
+      if (laid.fault || one.sum() <= other.sum() || one.least < std::min(other.least - kAsGood, kFair)) continue;
+      best = std::move(laid);
+    }
+  }
+
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
   /// front begins with.
   Attempt best_of_tries(std::size_t size) {
@@ -110,6 +129,7 @@ class RegionConverter {
     constexpr int kMostIfPoor = 2;
     Attempt best = begin(start_, options_, allowed_, Way::one_of_many);
     finish(best);
+    take_rows(best);
     Worth worth = judge(best.mesh);
     if (best.fault || worth.least < kHopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;
