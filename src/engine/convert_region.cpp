@@ -47,8 +47,9 @@ struct Front {
 constexpr std::size_t kWorkPerAttempt = 200;
 /// Of a triangle that is added where a fan is graded: the front's, above all.
 constexpr std::size_t kWorkToGrade = 150;
-/// What tries may cost before the last of them, for each triangle; and if a corner is poor after these.
-constexpr std::size_t kWorkForTries = 150, kWorkIfPoor = 6000;
+/// What tries may cost before the last of them, however small the region is and for each triangle; and for each triangle
+/// if a corner is poor after these.
+constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 6000;
 /// How far cavities grow in a try, until it is known to be the best.
 constexpr int kQuickGrowth = 1;
 
@@ -163,7 +164,7 @@ class RegionConverter {
     const std::size_t most_triangles = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
     const std::size_t most_faces = kMostGrowth * (count_faces(best.mesh, 4) + kFew);
     const std::vector<Options> variants = front_variants(options_);
-    const std::size_t before = cost_, most_work = (is_quick ? kWorkForTries : kWorkIfPoor) * size;
+    const std::size_t before = cost_, most_work = is_quick ? kWorkForAnyTries + kWorkForTries * size : kWorkIfPoor * size;
     for (; next_variant_ < variants.size(); ++next_variant_) {
       const Options& options = variants[next_variant_];
       if ((next_variant_ + 2) * size > most_triangles || cost_ - before > most_work) break;
