@@ -19,8 +19,8 @@ struct FillingChoice {
       0;  ///< how far the angles of the outline are from those that the filling asks for, squared, in half turns
 };
 
-/// A first look that needs no angles: false if every filling costs more than `most_cost`, which is so five times out of
-/// six.
+/// A first look that needs no angles: false if every filling costs more than `most_cost`, which is the case five times
+/// out of six.
 bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity, double most_cost);
 
 /// Fillings of the cavity that cost `most_cost` at most and whose number of quads is near `quads_wanted`; best first.

@@ -27,8 +27,8 @@ constexpr bool kChecksAlways = false;
 
 using Clock = std::chrono::steady_clock;
 
-/// How much of the work that it may cost a region has spent at most when these are done; what one leaves is for those
-/// after it.
+/// The share of its allowed work that a region may have spent when each of these is done; what one stage leaves is
+/// there for the next.
 constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
                  kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
 
@@ -66,6 +66,7 @@ void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Deci
   settings.observer = options_.observer;
   settings.decisions = decisions;
   settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
+  if (options_.observer) settings.lift = plane.curved;
   if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
   report_.front_quads += count_faces(mesh, 4);
   report_.leftover_triangles += count_faces(mesh, 3);
@@ -82,7 +83,12 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   polish(mesh);
 }
 
-void Pipeline::clean(kernel::Mesh& mesh) {
+void Pipeline::clean_further(kernel::Mesh& mesh) {
+  cleanup::clean_up(mesh, options_.smoothing, until(mesh, kCleanup));
+  end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
+}
+
+void Pipeline::clean(kernel::Mesh& mesh, const cleanup::CavityLimits& limits) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   const kernel::Budget elimination = until(mesh, kElimination);
   elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving, elimination);
@@ -98,7 +104,7 @@ void Pipeline::clean(kernel::Mesh& mesh) {
   cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing, boundary);
   cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing, boundary);
   note(boundary);
-  cleanup::clean_up(mesh, options_.smoothing, cleanup);
+  cleanup::clean_up(mesh, options_.smoothing, cleanup, limits);
   cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing, cleanup);
   note(cleanup);
   end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
@@ -150,7 +156,7 @@ void Pipeline::polish(kernel::Mesh& mesh) {
     note(last);
   }
   if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
-    smoothing::raise_worst_corners(mesh, options_.smoothing);
+    smoothing::raise_worst_corners(mesh, options_.smoothing, until(mesh, 1));
   progress("smoothing", 1);
   end_stage(Stage::repair, mesh, report_.cleanup_seconds);
 }

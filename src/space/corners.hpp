@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace qmorph::space {
 
@@ -21,8 +22,9 @@ struct CornerNormals {
 };
 
 /// Sines of the corners in space. Negative where the corner is turned over: the cross product of its sides points away
-/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by
-/// the first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle. 0 for a
+/// from the surface's normal near the corner and from the whole element's. It is enough if one of the two agrees: by
+/// the first alone good elements on coarse fillets, where a few triangles turn by a right angle, would be refused. 0
+/// for a
 /// side without length, -1 where a coordinate is NaN.
 template <std::size_t N>
 std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& normals) {
@@ -39,7 +41,7 @@ std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& 
 }
 
 /// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the
-/// element: near 0 it is chance which way a corner turns.
+/// element: near 0 it is a matter of chance which way a corner turns.
 template <std::size_t N>
 double smallest_rise(const Corners<N>& p, const CornerNormals<N>& normals) {
   double least = 1;
@@ -58,18 +60,20 @@ double scaled_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
   return *std::min_element(sines.begin(), sines.end());
 }
 
-/// Every corner turns so clearly the way that these normals do that others nearby would say the same, too.
+/// The same if every corner turns so clearly the way that these normals do that others nearby would say so, too.
 template <std::size_t N>
-bool is_clear(const Corners<N>& p, const CornerNormals<N>& normals) {
+std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
   constexpr double kClear = 0.5;  // cosine between a corner's cross product and the normals
   const double clear_of_whole = kClear * normals.whole.norm();
+  double least = 1;
   for (std::size_t i = 0; i < N; ++i) {
-    const Eigen::Vector3d cross = (p[(i + 1) % N] - p[i]).cross(p[(i + N - 1) % N] - p[i]);
+    const Eigen::Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i];
+    const Eigen::Vector3d cross = ahead.cross(behind);
     const double area = cross.norm();
-    if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area))
-      return false;
+    if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area)) return {};
+    least = std::min(least, area / std::sqrt(ahead.squaredNorm() * behind.squaredNorm()));
   }
-  return true;
+  return least;
 }
 
 /// Interior angles in degrees, from 0 to 360, of corners with these signed sines.

@@ -27,6 +27,9 @@ namespace {
 /// In sides of an element: how far nodes may be from the triangles, by rounding and where a geometry arches over them.
 constexpr double kOnTriangles = 1e-6, kOnGeometry = 1;
 
+/// Where not even the quads that are there already may pass for good ones.
+bool is_broken(ErrorKind kind) { return kind == ErrorKind::not_finite || kind == ErrorKind::bad_element; }
+
 /// The quads of a surface may change.
 void free_quads(SurfaceMesh& surface) {
   surface.quads_may_go = true;
@@ -100,7 +103,7 @@ Job Run::begin_alone(std::uint32_t entity) {
   return job;
 }
 
-/// All of a family, or none.
+/// Either all surfaces of a family are converted or none.
 Job Run::begin_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities) {
   StopWatch watch;
   Job job{.family = &family};
@@ -237,6 +240,7 @@ void Run::look_at(std::uint32_t entity, SurfaceReport& report) {
   try {
     surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
   } catch (const SurfaceError& error) {
+    if (task_ != Task::measure && is_broken(error.kind())) return leave(report, error);
     report.reason = error.what();
     report.error = error.details();
     return;  // there are no figures for it
@@ -251,7 +255,7 @@ void Run::look_at(std::uint32_t entity, SurfaceReport& report) {
   figures_.add_as_it_is(surface, before == before_.end() ? nullptr : &before->second, report);
 }
 
-/// That no figure tells.
+/// What no figure shows.
 void Run::find_faults(const SurfaceMesh& surface, SurfaceReport& report) const {
   const EntityMesh& mesh = model_.mesh.entities[surface.entity];
   const std::string where = order_of(mesh) > 1 ? find_bent(read_curved_elements(model_.mesh, mesh)) : "";

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 namespace qmorph::cleanup {
 
@@ -19,6 +22,18 @@ Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   return worth;
 }
 
+Worth best_worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
+  constexpr double kRounding = 1e-9;
+  Worth worth;
+  for (Index v : nodes) {
+    if (!mesh.is_live_vertex(v) || !mesh.is_boundary(v)) continue;
+    const Index out = mesh.out(v), quads = mesh.valence(v) - 1;
+    const double angle = ccw_angle(-mesh.vector(mesh.prev(out)), mesh.vector(out));
+    if (quads > 0 && angle > 0) worth.worst = std::min(worth.worst, std::sin(angle / quads) + kRounding);
+  }
+  return worth;
+}
+
 std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces) {
   std::vector<std::pair<double, Index>> sines;
   for (Index f : faces) sines.emplace_back(mesh.smallest_sine(f), f);
@@ -29,7 +44,7 @@ std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> face
 
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate) {
   std::vector<Index> nodes;
-  for (Index h : {candidate.h, kernel::Mesh::twin(candidate.h), candidate.k})
+  for (Index h : std::array<Index, 3>{candidate.h, kernel::Mesh::twin(candidate.h), candidate.k})
     if (h != kNone && mesh.face(h) != kNone)
       for (Index v : topology::nodes_of(mesh, mesh.face(h))) nodes.push_back(v);
   return nodes;
