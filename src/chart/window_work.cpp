@@ -49,7 +49,7 @@ class WindowWork {
   /// False if nothing has changed.
   bool cancel() {
     const cleanup::CavityLimits wide{
-        .most_quads = 400, .most_growth = 12, .most_tries = 20, .iterations = 12, .size = {0.9, 1.15}};
+        .most_quads = 400, .most_nodes = 12, .most_tries = 20, .iterations = 12, .size = {0.9, 1.15}};
     const kernel::Budget budget(work_.mesh, std::size_t(allowed_));
     if (cleanup::replace_cavities_near(work_.mesh, options_.smoothing, nodes_, budget, wide) == 0) return false;
     Pipeline(options_, report_, record_, work_.mesh, allowed_).polish(work_.mesh);

@@ -52,22 +52,40 @@ bool Cavity::start_with_all() {
   return trace();
 }
 
-bool Cavity::grow(std::size_t most) {
-  bool irregular = false;
-  for (Index h : outline_) {
-    const Index v = mesh_.origin(h);
-    if (!mesh_.is_free(v) || mesh_.valence(v) == 4) continue;
-    irregular = true;
-    if (!add_around(v)) return false;
-  }
-  if (!irregular)
-    for (Index h : outline_)
-      if (mesh_.is_free(mesh_.origin(h)) && !add_around(mesh_.origin(h))) return false;
-  return faces_.size() <= most && make_convex() && faces_.size() <= most;
+/// Whether what is asked for holds for a face around v.
+template <class Test>
+bool Cavity::any_around(Index v, const Test& test) const {
+  Index h = mesh_.out(v);
+  do {
+    if (test(mesh_.face(h))) return true;
+    h = mesh_.rotate_ccw(h);
+  } while (h != mesh_.out(v));
+  return false;
 }
 
-bool Cavity::make_convex() {
-  constexpr int kMostRounds = 8;
+bool Cavity::is_inside(Index v) const {
+  return !any_around(v, [&](Index f) { return !contains(f); });
+}
+
+bool Cavity::touches(Index v) const {
+  return any_around(v, [&](Index f) { return contains(f); });
+}
+
+bool Cavity::add_nodes(const std::vector<Index>& nodes, std::size_t most) {
+  const std::size_t kept = faces_.size();
+  kept_outline_ = outline_, kept_inner_ = inner_, kept_outer_ = outer_;
+  bool added = true;
+  for (Index v : nodes) added = added && add_around(v);
+  if (added && faces_.size() <= most && make_convex(most) && faces_.size() <= most) return true;
+  for (std::size_t k = kept; k < faces_.size(); ++k) face_mark_[faces_[k]] = 0;
+  faces_.resize(kept);
+  traced_ = kept;
+  outline_ = kept_outline_, inner_ = kept_inner_, outer_ = kept_outer_;
+  return false;
+}
+
+bool Cavity::make_convex(std::size_t most) {
+  constexpr int kMostRounds = 40;
   for (int i = 0; i < kMostRounds; ++i) {
     if (!trace()) return false;
     const std::size_t before = faces_.size();
@@ -76,6 +94,7 @@ bool Cavity::make_convex() {
       if (outer_[k] == 2 && mesh_.is_free(v) && !add_around(v)) return false;
     }
     if (faces_.size() == before) return true;
+    if (faces_.size() > most) return false;
   }
   return false;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A disc of quads that is to be replaced, grown from one irregular node.
+/// A disc of quads that is to be replaced, grown from one irregular node to others.
 
 #include <cstdint>
 #include <vector>
@@ -17,9 +17,13 @@ class Cavity {
   bool start(Index v);
   /// All faces of the mesh. False as above.
   bool start_with_all();
-  /// Adds the quads around irregular nodes of the outline or, if there are none, around all its nodes; then those
-  /// without which the outline would be concave. False if that is no such disc, or has more than `most` quads.
-  bool grow(std::size_t most);
+  /// Adds the quads around these nodes, and those without which the outline would be concave. False, with the disc as it
+  /// was, if that is no disc or has more than `most` quads.
+  bool add_nodes(const std::vector<Index>& nodes, std::size_t most);
+  /// All quads around v are in the disc.
+  bool is_inside(Index v) const;
+  /// One of them is.
+  bool touches(Index v) const;
 
   const std::vector<Index>& faces() const { return faces_; }
   /// Half-edges round the disc, the disc on their left.
@@ -30,9 +34,11 @@ class Cavity {
 
  private:
   bool contains(Index f) const { return f != kNone && face_mark_[f] == round_; }
+  template <class Test>
+  bool any_around(Index v, const Test& test) const;
   bool add(Index f);
   bool add_around(Index v);
-  bool make_convex();
+  bool make_convex(std::size_t most = std::size_t(-1));
   bool trace();
   bool trace_outline();
   void count_outer_edges();
@@ -45,8 +51,10 @@ class Cavity {
 
   const kernel::Mesh& mesh_;
   std::vector<Index> faces_, outline_, inner_;
-  std::vector<Index> old_outline_;  ///< the one before
-  std::size_t traced_ = 0;          ///< faces when the outline was found
+  std::vector<Index> old_outline_;                ///< the one before
+  std::vector<Index> kept_outline_, kept_inner_;  ///< from before nodes were added
+  std::vector<int> kept_outer_;
+  std::size_t traced_ = 0;  ///< faces when the outline was found
   std::vector<int> outer_;
   std::vector<std::uint32_t> face_mark_, node_mark_;
   std::vector<Index> leaving_;  ///< by node: the half-edge of the outline that starts there

@@ -84,32 +84,42 @@ std::vector<Vec2> between(const Vec2& p, const Vec2& q, int edges) {
   return points;
 }
 
-/// Three or five grids around a new node.
+/// Three or five grids around a new node, or around one of the ring where a spoke has no length.
 bool fill_star(Mesh& mesh, const std::vector<Index>& ring, const Filling& filling, std::vector<Index>& nodes) {
   Filler filler(mesh, nodes);
   const int n = int(ring.size()), k = filling.corners;
-  std::vector<Index> ends;  // where the spokes end
+  const auto before = [&](int i) { return (i + k - 1) % k; };
+  const auto end = [&](int i) { return ring[(filling.corner[i] + filling.spokes[before(i)]) % n]; };  // of a spoke
+  const auto end_point = [&](int i) { return mesh.point(mesh.origin(end(i))); };
+  const auto zero = std::find(filling.spokes.begin(), filling.spokes.begin() + k, 0) - filling.spokes.begin();
+  const bool is_inside = zero == k;
   Vec2 centre = Vec2::Zero();
+  int at = 0, spokes_to_draw = k - 2;
+  Index from_centre = kNone;
+  if (is_inside) {
+    for (int i = 0; i < k; ++i) centre += end_point(i) / k;
+    // The first two spokes are one path through the centre.
+    std::vector<Vec2> points = between(end_point(0), centre, filling.spokes[0]);
+    points.push_back(centre);
+    for (const Vec2& p : between(centre, end_point(1), filling.spokes[1])) points.push_back(p);
+    from_centre = filler.path(end(0), end(1), points);
+    if (from_centre == kNone) return false;
+    from_centre = ahead(mesh, from_centre, filling.spokes[0]);
+  } else {
+    at = int(zero);
+    from_centre = end(at);
+    centre = end_point(at);
+    spokes_to_draw = k - 3;  // those on both sides run along the ring
+  }
+  for (int i = 0; i < spokes_to_draw; ++i) {
+    const int spoke = (at + 2 + i) % k;
+    from_centre = filler.path(from_centre, end(spoke), between(centre, end_point(spoke), filling.spokes[spoke]));
+    if (from_centre == kNone) return false;
+  }
   for (int i = 0; i < k; ++i) {
-    const int from_corner = filling.spokes[(i + k - 1) % k];
-    ends.push_back(ring[(filling.corner[i] + from_corner) % n]);
-    centre += mesh.point(mesh.origin(ends.back())) / k;
+    const int across = filling.spokes[before(i)], along = filling.spokes[i];
+    if (across > 0 && along > 0 && !filler.grid(ring[filling.corner[i]], across, along)) return false;
   }
-  const auto end_point = [&](int i) { return mesh.point(mesh.origin(ends[i])); };
-  // The first two spokes are one path through the centre.
-  std::vector<Vec2> points = between(end_point(0), centre, filling.spokes[0]);
-  points.push_back(centre);
-  for (const Vec2& p : between(centre, end_point(1), filling.spokes[1])) points.push_back(p);
-  Index first = filler.path(ends[0], ends[1], points);
-  if (first == kNone) return false;
-  Index from_centre = ahead(mesh, first, filling.spokes[0]);
-  for (int i = 2; i < k; ++i) {
-    const Index spoke = filler.path(from_centre, ends[i], between(centre, end_point(i), filling.spokes[i]));
-    if (spoke == kNone) return false;
-    from_centre = spoke;
-  }
-  for (int i = 0; i < k; ++i)
-    if (!filler.grid(ring[filling.corner[i]], filling.spokes[(i + k - 1) % k], filling.spokes[i])) return false;
   return true;
 }
 
@@ -156,6 +166,27 @@ bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<
   if (filling.corners != 4) return fill_star(mesh, ring, filling, nodes);
   return Filler(mesh, nodes)
       .grid(ring[filling.corner[0]], filling.corner[1] - filling.corner[0], filling.corner[2] - filling.corner[1]);
+}
+
+bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces,
+          const PairFilling& filling, std::vector<Index>& nodes) {
+  for (Index h : ring) nodes.push_back(mesh.origin(h));
+  mesh.make_face(ring, faces);
+  const int n = int(ring.size());
+  const auto at = [&](int place) { return ring[(place + n) % n]; };
+  const Index from = at(filling.corner + filling.ahead), to = at(filling.corner - filling.back);
+  std::vector<Vec2> points = between(mesh.point(mesh.origin(from)), filling.bend, filling.triangle.spokes[1]);
+  points.push_back(filling.bend);
+  for (const Vec2& p : between(filling.bend, mesh.point(mesh.origin(to)), filling.triangle.spokes[0]))
+    points.push_back(p);
+  Index cut = Filler(mesh, nodes).path(from, to, points);
+  if (cut == kNone) return false;
+  std::vector<Index> triangle, pentagon;
+  for (int i = -filling.back; i < filling.ahead; ++i) triangle.push_back(at(filling.corner + i));
+  for (int i = filling.ahead; i < n - filling.back; ++i) pentagon.push_back(at(filling.corner + i));
+  for (int i = 0; i < filling.cut(); ++i, cut = mesh.next(cut)) triangle.push_back(cut);
+  for (int i = 0; i < filling.cut(); ++i) pentagon.push_back(Mesh::twin(triangle[triangle.size() - 1 - i]));
+  return fill_star(mesh, triangle, filling.triangle, nodes) && fill_star(mesh, pentagon, filling.pentagon, nodes);
 }
 
 }  // namespace qmorph::cleanup

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/vec2.hpp"
 #include "kernel/mesh.hpp"
 
 namespace qmorph::cleanup {
@@ -18,6 +19,18 @@ struct Filling {
   int corners = 0;
   std::array<int, 5> corner{};
   std::array<int, 5> spokes{};
+};
+
+/// A path cuts a corner off the ring, from the place `ahead` edges after it to the one `back` edges before it. What is
+/// cut off is filled between three corners, the rest between five. Either may have a spoke of no length: then its node is
+/// on the cut.
+struct PairFilling {
+  int corner = 0;  ///< the place of the corner that is cut off
+  int ahead = 0, back = 0;
+  Filling triangle, pentagon;  ///< places count from the cut: from its end, and from its start
+  Vec2 bend = Vec2::Zero();    ///< where the path turns, more or less
+
+  int cut() const { return triangle.spokes[0] + triangle.spokes[1]; }
 };
 
 /// Quads of a filling of a ring with n edges.
@@ -32,5 +45,8 @@ std::optional<Filling> filling_between(std::span<const int> corners, int n);
 /// transaction.
 bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces, const Filling& filling,
           std::vector<Index>& nodes);
+
+bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces,
+          const PairFilling& filling, std::vector<Index>& nodes);
 
 }  // namespace qmorph::cleanup

@@ -20,6 +20,7 @@ constexpr int kForbidden = 1'000'000;
 /// Score of the new nodes: one is irregular unless there are four corners. All costs are whole numbers: their sums have
 /// no rounding, in whatever order.
 int cost_inside(int corners) { return corners == 4 ? 0 : 1; }
+constexpr int kCostOfPair = 2;
 
 /// What a place of an outline costs as a side, and as a corner over that.
 struct PlaceCost {
@@ -60,12 +61,8 @@ struct Places {
 
 class Chooser {
  public:
-  Chooser(const Places& places, double most_cost, double quads_wanted, const FillingSize& size)
-      : places_(places),
-        n_(int(places.corner_cost.size())),
-        most_cost_(most_cost),
-        quads_wanted_(quads_wanted),
-        size_(size) {}
+  Chooser(const Places& places, const PairWish& wish, double most_cost)
+      : places_(places), wish_(wish), n_(int(places.corner_cost.size())), most_cost_(most_cost) {}
 
   std::vector<FillingChoice> run() {
     find_likely_corners();
@@ -82,6 +79,8 @@ class Chooser {
     }
     pick(0, 3, cost_of_sides(3));
     pick(0, 5, cost_of_sides(5));
+    with_pair_ = true;
+    pick(0, 4, places_.side_cost + kCostOfPair);
     std::stable_sort(found_.begin(), found_.end(), [](const FillingChoice& a, const FillingChoice& b) {
       return a.cost + a.misfit < b.cost + b.misfit;
     });
@@ -123,27 +122,46 @@ class Chooser {
 
   void offer(std::span<const int> corners) {
     FillingChoice choice;
-    choice.cost = cost_of_sides(int(corners.size()));
+    choice.cost = with_pair_ ? places_.side_cost + kCostOfPair : cost_of_sides(int(corners.size()));
     choice.misfit = places_.side_misfit;
     for (int c : corners) choice.cost += places_.corner_cost[c], choice.misfit += places_.corner_misfit[c];
     if (choice.cost > most_cost_) return;
+    if (with_pair_) return offer_pair(corners, choice);
     const auto filling = filling_between(corners, n_);
     if (!filling) return;
-    const double ratio = quads_of(*filling, n_) / quads_wanted_;
-    if (ratio < size_.fewest || ratio > size_.most) return;
+    const double ratio = quads_of(*filling, n_) / wish_.quads_wanted;
+    if (ratio < wish_.size.fewest || ratio > wish_.size.most) return;
     choice.filling = *filling;
     found_.push_back(choice);
   }
 
+  void offer_pair(std::span<const int> corners, FillingChoice choice) {
+    const auto pair = pair_filling_between({corners[0], corners[1], corners[2], corners[3]}, wish_);
+    if (!pair) return;
+    choice.pair = pair->filling;
+    choice.misfit += pair->misfit;
+    found_.push_back(choice);
+  }
+
   const Places& places_;
+  const PairWish& wish_;
   int n_;
-  double most_cost_, quads_wanted_;
-  FillingSize size_;
+  double most_cost_;
+  bool with_pair_ = false;        ///< the corners that are picked are those of a filling with two irregular nodes
   std::vector<int> likely_;       ///< places for three and five corners, ascending
   std::vector<double> cheapest_;  ///< [k]: what k of them cost at least
   std::vector<int> picked_;
   std::vector<FillingChoice> found_;
 };
+
+/// Of those inside: where sizes change, they are there for a reason.
+Vec2 middle_of_irregular_nodes(const kernel::Mesh& mesh, const Cavity& cavity) {
+  Vec2 sum = Vec2::Zero();
+  int count = 0;
+  for (Index v : cavity.inner_nodes())
+    if (mesh.valence(v) != 4) sum += mesh.point(v), ++count;
+  return count > 0 ? Vec2(sum / count) : mesh.point(mesh.origin(cavity.outline()[0]));
+}
 
 }  // namespace
 
@@ -165,12 +183,15 @@ bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity
     return std::accumulate(costs.begin(), costs.begin() + std::ptrdiff_t(count), 0);
   };
   return sides + cheapest(pairs, 2) <= most_cost || sides + cheapest(corners, 3) + cost_inside(3) <= most_cost ||
-         sides + cheapest(corners, 5) + cost_inside(5) <= most_cost;
+         sides + cheapest(corners, 5) + cost_inside(5) <= most_cost ||
+         sides + cheapest(corners, 4) + kCostOfPair <= most_cost;
 }
 
 std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
                                            double most_cost, double quads_wanted, const FillingSize& size) {
-  return Chooser(Places(mesh, score, cavity), most_cost, quads_wanted, size).run();
+  PairWish wish{{}, middle_of_irregular_nodes(mesh, cavity), quads_wanted, size};
+  for (Index h : cavity.outline()) wish.outline.push_back(mesh.point(mesh.origin(h)));
+  return Chooser(Places(mesh, score, cavity), wish, most_cost).run();
 }
 
 }  // namespace qmorph::cleanup

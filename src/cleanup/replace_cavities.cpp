@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "cleanup/attempt.hpp"
 #include "cleanup/cavity.hpp"
 #include "cleanup/element_size.hpp"
 #include "cleanup/filling_choice.hpp"
+#include "cleanup/nearest_nodes.hpp"
 #include "cleanup/node_queue.hpp"
 
 namespace qmorph::cleanup {
@@ -25,10 +27,11 @@ bool has_chance(const Cavity& cavity, const FillingChoice& choice, int tries, in
 }
 
 /// Better valences may cost a little shape: the worst corner may fall, but not under the floor (unless it was lower
-/// before), and the mean hardly.
+/// before), and the mean hardly, nor all elements together.
 bool is_good_enough(const Worth& before, const Worth& after) {
-  constexpr double kMeanLoss = 0.02;
-  return after.worst >= std::min(before.worst, kFloor) && after.mean >= before.mean - kMeanLoss;
+  constexpr double kMeanLoss = 0.02, kLossOfAll = 1.5;
+  const double loss = before.mean - after.mean;
+  return after.worst >= std::min(before.worst, kFloor) && loss <= kMeanLoss && loss * double(after.faces) <= kLossOfAll;
 }
 
 /// The worst corner gains visibly, and the mean hardly loses.
@@ -41,7 +44,14 @@ class Replacing {
  public:
   Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
             const CavityLimits& limits = {})
-      : mesh_(mesh), score_(mesh), size_(mesh), cavity_(mesh), relaxing_(smoothing), budget_(budget), limits_(limits) {
+      : mesh_(mesh),
+        score_(mesh),
+        size_(mesh),
+        cavity_(mesh),
+        nearest_(mesh),
+        relaxing_(smoothing),
+        budget_(budget),
+        limits_(limits) {
     relaxing_.iterations = limits.iterations;
     relaxing_.untangling_sweeps = 8;  // a filling that needs more does not fit
   }
@@ -87,16 +97,31 @@ class Replacing {
     if (is_defect(v)) queue_.push(v);
   }
 
-  /// Grows a cavity from v until a filling is accepted that costs less by `gain`. True if there was one.
+  /// Grows a cavity from v to one irregular node after another, the nearest first, until a filling is accepted that
+  /// costs less by `gain`. True if there was one.
   template <class Accept>
   bool improve(Index v, const Accept& accept, double gain) {
     if (mesh_.valence(v) > kMostValence || !cavity_.start(v)) return false;
-    for (int step = 0; step < limits_.most_growth && !budget_.is_spent(); ++step) {
+    mesh_.add_work(cavity_.faces().size());
+    if (replace(accept, gain)) return true;
+    nearest_.start(v);
+    for (int reached = 0; reached < limits_.most_nodes && !budget_.is_spent();) {
+      const Index u = nearest_.next(kMostLooks);
+      if (u == kNone) return false;
+      if (score_.excess(u) == 0 || mesh_.valence(u) > kMostValence || cavity_.is_inside(u)) continue;
+      ++reached;
       mesh_.add_work(cavity_.faces().size());
-      if (replace(accept, gain)) return true;
-      if (!cavity_.grow(limits_.most_quads)) return false;
+      if (cavity_.add_nodes(way_to(u), limits_.most_quads) && replace(accept, gain)) return true;
     }
     return false;
+  }
+
+  /// The free nodes on the way from the cavity to u.
+  const std::vector<Index>& way_to(Index u) {
+    way_.assign(1, u);
+    while (!cavity_.touches(way_.back())) way_.push_back(nearest_.before(way_.back()));
+    std::erase_if(way_, [&](Index w) { return !mesh_.is_free(w); });
+    return way_;
   }
 
   template <class Accept>
@@ -113,7 +138,9 @@ class Replacing {
          choose_fillings(mesh_, score_, cavity_, cost - gain, size_.quads_wanted(cavity_.faces()), limits_.size)) {
       if (!has_chance(cavity_, choice, ++tries, limits_.most_tries)) return false;
       const auto edit = [&](std::vector<Index>& nodes) {
-        return fill(mesh_, cavity_.outline(), cavity_.faces(), choice.filling, nodes);
+        const bool filled = choice.pair ? fill(mesh_, cavity_.outline(), cavity_.faces(), *choice.pair, nodes)
+                                        : fill(mesh_, cavity_.outline(), cavity_.faces(), choice.filling, nodes);
+        return filled && settle(std::span(nodes).subspan(cavity_.outline().size()));
       };
       if (!attempt(mesh_, relaxing_, kRings, near, nodes_, edit, accept)) continue;
       ++changes_;
@@ -125,10 +152,27 @@ class Replacing {
     return false;
   }
 
+  /// A guess of where new nodes are becomes a better one: each goes to the middle of its neighbours. False if so many
+  /// elements are folded then that it is not worth the trouble.
+  bool settle(std::span<const Index> nodes) {
+    constexpr int kSweeps = 5;
+    constexpr double kMostFolded = 0.02;
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+      for (Index v : nodes) mesh_.set_point(v, topology::middle_of_neighbours(mesh_, v));
+    const std::vector<Index> faces = topology::faces_around(mesh_, {nodes.begin(), nodes.end()});
+    mesh_.add_work(faces.size());
+    const auto folded = std::count_if(faces.begin(), faces.end(), [&](Index f) { return !mesh_.is_valid_face(f); });
+    return double(folded) <= kMostFolded * double(faces.size());
+  }
+
+  static constexpr std::size_t kMostLooks = 600;  ///< nodes among which irregular ones are looked for
+
   kernel::Mesh& mesh_;
   Score score_;
   ElementSize size_;
   Cavity cavity_;
+  NearestNodes nearest_;
+  std::vector<Index> way_;  ///< from a node to the cavity
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;
   const CavityLimits limits_;

@@ -13,14 +13,14 @@ namespace qmorph::cleanup {
 
 /// How far a search for a filling goes.
 struct CavityLimits {
-  std::size_t most_quads = 80;
-  int most_growth = 6;
-  int most_tries = 3;  ///< fillings of one cavity
-  int iterations = 4;  ///< of the smoothing by which one is judged
+  std::size_t most_quads = 200;
+  int most_nodes = 12;  ///< irregular ones that a cavity grows to
+  int most_tries = 3;   ///< fillings of one cavity
+  int iterations = 6;   ///< of the smoothing by which one is judged
   FillingSize size;
 };
 
-/// Grows a disc of quads from each irregular node and replaces it by a filling (filling.hpp) whose valences score
+/// Grows a disc of quads from each irregular node to others and replaces it by a filling (filling.hpp) whose valences score
 /// better, in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so
 /// do boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {},

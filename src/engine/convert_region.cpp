@@ -193,7 +193,7 @@ class RegionConverter {
     if (way != Way::without_front)
       pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
     cleanup::CavityLimits limits;
-    if (is_quick) limits.most_growth = kQuickGrowth;
+    if (is_quick) limits.most_nodes = kQuickGrowth;
     if (way == Way::one_of_many && is_repeated(front, result.mesh))
       result.fault = SurfaceError("the front has made this before");
     else

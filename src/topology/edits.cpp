@@ -32,6 +32,17 @@ void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
   sort_unique(nodes);
 }
 
+Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v) {
+  Vec2 sum = Vec2::Zero();
+  int count = 0;
+  Index h = mesh.out(v);
+  do {
+    sum += mesh.point(mesh.target(h)), ++count;
+    h = mesh.rotate_ccw(h);
+  } while (h != mesh.out(v));
+  return sum / count;
+}
+
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
   std::vector<Index> nodes;
   mesh.for_nodes_of(f, [&](Index v) { nodes.push_back(v); });

@@ -31,6 +31,9 @@ std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int 
 /// The faces around some nodes, sorted. Dead nodes have none.
 std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 
+/// Mean of the nodes that edges join v with.
+Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v);
+
 /// Nodes of a face, counter-clockwise.
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f);
 

@@ -16,6 +16,14 @@ using cleanup::Cavity;
 constexpr std::size_t kAnyNumber = 1000;
 constexpr Index kMiddle = 40;  ///< of a grid of 8 x 8 cells
 
+/// By a ring of quads.
+bool grow(const Mesh& mesh, Cavity& cavity, std::size_t most) {
+  std::vector<Index> nodes;
+  for (Index h : cavity.outline())
+    if (mesh.is_free(mesh.origin(h))) nodes.push_back(mesh.origin(h));
+  return cavity.add_nodes(nodes, most);
+}
+
 }  // namespace
 
 TEST_CASE("cavity: around a node of a grid it is four quads with eight edges, then sixteen with sixteen") {
@@ -25,7 +33,7 @@ TEST_CASE("cavity: around a node of a grid it is four quads with eight edges, th
   CHECK(cavity.faces().size() == 4);
   CHECK(cavity.outline().size() == 8);
   CHECK(cavity.inner_nodes() == std::vector<Index>{kMiddle});
-  REQUIRE(cavity.grow(kAnyNumber));
+  REQUIRE(grow(mesh, cavity, kAnyNumber));
   CHECK(cavity.faces().size() == 16);
   CHECK(cavity.outline().size() == 16);
   CHECK(cavity.inner_nodes().size() == 9);
@@ -65,16 +73,16 @@ TEST_CASE("cavity: it does not start at a node that must stay, nor grow over one
   CHECK_FALSE(cavity.start(4));  // on its side
   CHECK_FALSE(cavity.start(kMiddle + 1));
   REQUIRE(cavity.start(kMiddle));  // the fixed node is on the outline
-  CHECK_FALSE(cavity.grow(kAnyNumber));
+  CHECK_FALSE(grow(mesh, cavity, kAnyNumber));
 }
 
 TEST_CASE("cavity: it grows to the boundary and no further") {
   const Mesh mesh = quad_grid(4, 4);
   Cavity cavity(mesh);
   REQUIRE(cavity.start(12));
-  REQUIRE(cavity.grow(16));
+  REQUIRE(grow(mesh, cavity, 16));
   CHECK(cavity.faces().size() == 16);
-  REQUIRE(cavity.grow(16));
+  REQUIRE(grow(mesh, cavity, 16));
   CHECK(cavity.faces().size() == 16);
 }
 
@@ -82,9 +90,42 @@ TEST_CASE("cavity: it does not grow over the most quads that are asked for") {
   const Mesh mesh = quad_grid(8, 8);
   Cavity cavity(mesh);
   REQUIRE(cavity.start(kMiddle));
-  CHECK_FALSE(cavity.grow(15));
+  CHECK_FALSE(grow(mesh, cavity, 15));
   REQUIRE(cavity.start(kMiddle));
-  CHECK(cavity.grow(16));
+  CHECK(grow(mesh, cavity, 16));
+}
+
+TEST_CASE("cavity: where it cannot grow it stays as it is, and can grow elsewhere") {
+  Mesh mesh = quad_grid(8, 8);
+  mesh.set_fixed(kMiddle + 1);
+  Cavity cavity(mesh);
+  REQUIRE(cavity.start(kMiddle));
+  const auto faces = cavity.faces(), outline = cavity.outline(), inner = cavity.inner_nodes();
+  const auto outer = cavity.outer_edges();
+  CHECK_FALSE(grow(mesh, cavity, kAnyNumber));
+  CHECK_FALSE(cavity.add_nodes({kMiddle - 1}, 5));
+  CHECK(cavity.faces() == faces);
+  CHECK(cavity.outline() == outline);
+  CHECK(cavity.inner_nodes() == inner);
+  CHECK(cavity.outer_edges() == outer);
+  CHECK(cavity.add_nodes({kMiddle - 1}, kAnyNumber));
+  CHECK(cavity.faces().size() == 6);
+  CHECK(cavity.inner_nodes() == std::vector<Index>{kMiddle, kMiddle - 1});
+}
+
+TEST_CASE("cavity: to a node further off it grows with all between them") {
+  const Mesh mesh = quad_grid(12, 12);
+  const auto node = [](Index x, Index y) { return 13 * y + x; };
+  Cavity cavity(mesh);
+  REQUIRE(cavity.start(node(3, 3)));
+  CHECK(cavity.touches(node(4, 4)));
+  CHECK_FALSE(cavity.touches(node(5, 3)));
+  REQUIRE(cavity.add_nodes(
+      {node(8, 7), node(8, 6), node(8, 5), node(8, 4), node(8, 3), node(7, 3), node(6, 3), node(5, 3), node(4, 3)},
+      kAnyNumber));
+  CHECK(cavity.faces().size() == 7 * 6);
+  CHECK(cavity.is_inside(node(5, 6)));
+  CHECK_FALSE(cavity.is_inside(node(2, 2)));
 }
 
 TEST_CASE("cavity: a triangle is never part of it") {
@@ -95,7 +136,7 @@ TEST_CASE("cavity: a triangle is never part of it") {
   CHECK_FALSE(cavity.start(kMiddle));
   CHECK_FALSE(cavity.start_with_all());
   REQUIRE(cavity.start(kMiddle - 1));
-  CHECK_FALSE(cavity.grow(kAnyNumber));
+  CHECK_FALSE(grow(mesh, cavity, kAnyNumber));
 }
 
 TEST_CASE("cavity: all faces are a cavity if the mesh is a disc whose inner nodes are free") {
@@ -132,7 +173,7 @@ TEST_CASE("cavity: quads without which the outline would be concave are taken in
       for (std::size_t i = 0; i < cavity.outline().size(); ++i)
         if (mesh.is_free(mesh.origin(cavity.outline()[i]))) CHECK(cavity.outer_edges()[i] > 2);
       grown += cavity.faces().size() > mesh.valence(v);
-      if (!cavity.grow(kAnyNumber)) break;
+      if (!grow(mesh, cavity, kAnyNumber)) break;
     }
   }
   CHECK(grown > 0);

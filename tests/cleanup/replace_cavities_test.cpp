@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "cleanup/rings.hpp"
 #include "smoothing/smooth.hpp"
 
@@ -70,6 +72,23 @@ TEST_CASE("replace cavities: pairs of three and five edges in a grid vanish") {
 TEST_CASE("replace cavities: three pairs around one block vanish together") {
   Mesh mesh = grid_with_block(12, 12, 4, 2, 3, {0, 2, 4, 6, 8});
   smoothing::smooth(mesh, {});
+  check_that_all_vanish(with_fixed_node(mesh));
+}
+
+TEST_CASE("replace cavities: pairs that are far from each other meet") {
+  // Two edges turned, 10 rows apart: the mesh has eight irregular nodes.
+  Mesh mesh = quad_grid(24, 24);
+  for (Index y : {7, 17}) {
+    const auto node = [&](Index x, Index dy) { return (y + dy) * 25 + 12 + x; };
+    const std::vector<Index> outline = {node(0, 0), node(1, 0), node(2, 0), node(2, 1), node(1, 1), node(0, 1)};
+    const std::vector<Index> faces = {mesh.face(edge(mesh, node(0, 0), node(1, 0))),
+                                      mesh.face(edge(mesh, node(1, 0), node(2, 0)))};
+    std::vector<Index> nodes;
+    REQUIRE(cleanup::fill(mesh, ring_through(mesh, outline), faces,
+                          *cleanup::filling_between(std::array{1, 2, 4, 5}, 6), nodes));
+  }
+  smoothing::smooth(mesh, {});
+  REQUIRE(irregular_nodes(mesh) == 8);
   check_that_all_vanish(with_fixed_node(mesh));
 }
 
