@@ -31,6 +31,15 @@ std::string block_in_box(const std::string& first, const std::string& ratio, boo
          ";\nBoundaryLayer Field=1; Physical Curve(\"wall\")={1:4}; Physical Surface(\"fluid\")={1};\n";
 }
 
+/// The same with quads, and fans of so many elements at two corners.
+std::string block_with_fans(int elements) {
+  const std::string size = std::to_string(elements);
+  std::string script = block_in_box(".01", "1.3", true);
+  const std::string all = "Field[1].FanNodesList={1:4};";
+  return script.replace(script.find(all), all.size(),
+                        "Field[1].FanPointsList={1,2}; Field[1].FanPointsSizesList={" + size + "," + size + "};");
+}
+
 /// A wall that was extruded in layers; recombined or not.
 std::string extruded_wall(bool quads) {
   return std::string("Point(1)={0,0,0,.1}; Point(2)={2,0,0,.1}; Line(1)={1,2}; Transfinite Curve{1}=21;\n") +
@@ -127,6 +136,26 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
     CHECK(kept <= 1.01 * double(truth.size()) + kTips);
     CHECK(mentions(result.err, " of them in layers"));
     CHECK(!mentions(result.err, "warning"));
+  }
+}
+
+TEST_CASE("layers of Gmsh: where its own quads would enclose an odd fan, no triangle is left all the same") {
+  const TemporaryDirectory directory;
+  for (const int fan : {3, 5}) {
+    CAPTURE(fan);
+    write_file(directory / "fan.geo", block_with_fans(fan));
+    const std::string in = directory / "fan.geo", out = directory / "out.msh";
+    const Result result = run_qmorph({in, "-o", out});
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    CHECK(element_counts(read_snapshot(out), 1).first == 0);
+    // Only then are the layers made of triangles first.
+    CHECK(mentions(result.err, " of them in layers") == (fan == 3));
+    // Without rows from triangles the quads are Gmsh's: the fans stay odd, and nothing else is promised.
+    const Result without = run_qmorph({in, "-o", out, "--layers=off"});
+    CAPTURE(without.err);
+    CHECK(element_counts(read_snapshot(out), 1).first == (fan == 3 ? 2 : 0));
+    CHECK(mentions(without.err, "leaves none but where quads of the input enclose them") == (fan == 3));
   }
 }
 

@@ -99,6 +99,7 @@ void Document::mesh(double size_factor) {
   }
   adapter::MeshingTask task = adapter::find_meshing_task(opened_.msh.version != 0);
   task.compounds = opened_.compounds;
+  task.becomes_layers = call_.request.layers;
   if (task.is_empty() || call_.request.no_meshing) return;
   const bool all_is_ours = task.kept.empty();
   for (const std::string& warning : adapter::mesh_surfaces(task, call_.request.keep_curves).warnings)

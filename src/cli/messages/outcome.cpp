@@ -34,16 +34,19 @@ void print_triangles(const Request& request, const ModelReport& model, std::ostr
   if (request.all_quad || request.cleanup_only) return;
   std::size_t triangles = 0;
   std::vector<int> surfaces;
+  bool among_quads = false;  // these stay as they are, and what they enclose cannot be split
   for (const SurfaceReport& surface : model.surfaces) {
     if (surface.outcome != SurfaceOutcome::converted || surface.triangles_out == 0) continue;
     triangles += surface.triangles_out;
+    among_quads |= surface.quads_in > 0;
     surfaces.push_back(surface.tag);
   }
   if (triangles)
     err << fmt::format(
         "{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
-        "leaves none\n",
-        triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "));
+        "leaves none{}\n",
+        triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "),
+        among_quads ? " but where quads of the input enclose them" : "");
 }
 
 /// Gmsh may repeat a message for each of a million nodes.

@@ -64,6 +64,7 @@ adapter::OpenedModel open_for_conversion(const Call& call, const adapter::Output
                                                   .background = request.background,
                                                   .no_meshing = request.no_meshing,
                                                   .ignore_periodicity = request.ignore_periodicity,
+                                                  .becomes_layers = request.layers,
                                                   .keep_curves = request.keep_curves});
   if (request.drop_volumes) adapter::drop_volumes();
   if (request.verbosity >= 1) name_ignored_options(request, opened, call.err);

@@ -263,4 +263,14 @@ RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const s
   return FindingRegions(mesh, use, surfaces, keep_curves).run();
 }
 
+bool has_enclosed_odd_regions(const std::vector<int>& surfaces) {
+  const ModelMesh mesh = read_model_mesh();
+  std::vector<std::uint32_t> entities;
+  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
+    if (mesh.entities[e].dim == 2 && std::count(surfaces.begin(), surfaces.end(), mesh.entities[e].tag))
+      entities.push_back(e);
+  const RegionGraph graph = find_region_graph(mesh, find_node_use(mesh), entities, {});
+  return !parity::plan_splits(graph.odd, graph.links).odd_left.empty();
+}
+
 }  // namespace qmorph::adapter

@@ -30,4 +30,9 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b);
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves);
 
+/// Whether regions of the current model are odd, and no node on a curve makes them even: triangles among quads, for
+/// example.
+/// \param surfaces tags of those to be converted
+bool has_enclosed_odd_regions(const std::vector<int>& surfaces);
+
 }  // namespace qmorph::adapter

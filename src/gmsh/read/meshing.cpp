@@ -11,6 +11,7 @@
 #include <regex>
 #include <set>
 
+#include "gmsh/even/even_links.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/session/compat.hpp"
@@ -34,9 +35,10 @@ bool has_parameters(int surface) {
   return low.size() == 2 && high.size() == 2 && low[0] < high[0] && low[1] < high[1];
 }
 
-/// Surfaces with `Recombine Surface` and `Transfinite Surface`.
+/// Surfaces with `Recombine Surface` and `Transfinite Surface`; fields of boundary layers with `Quads`.
 struct Flags {
   std::set<int> recombined, transfinite;
+  std::vector<int> quad_fields;
 };
 
 /// No call of Gmsh 4.8 tells, but the model written as a script does. It does not have facets.
@@ -45,10 +47,12 @@ Flags read_flags() {
   run_logged([&] { ::gmsh::write(script.path()); });
   std::ifstream in(script.path());
   static const std::regex statement(R"(^\s*(Recombine|Transfinite) Surface \{([^}]*)\})");
+  static const std::regex field(R"(^\s*Field\[(\d+)\]\.Quads = [1-9])");
   static const std::regex number(R"(\d+)");
   Flags flags;
   for (std::string line; std::getline(in, line);) {
     std::smatch match;
+    if (std::regex_search(line, match, field)) flags.quad_fields.push_back(std::stoi(match[1]));
     if (!std::regex_search(line, match, statement)) continue;
     std::set<int>& tags = match[1] == "Recombine" ? flags.recombined : flags.transfinite;
     const std::string list = match[2];
@@ -203,6 +207,45 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
   return generate(flags, nullptr, division);
 }
 
+/// Boundary layers of triangles, for as long as this object lives, where the script wants quads.
+class LayersOfTriangles {
+ public:
+  explicit LayersOfTriangles(const std::vector<int>& fields) : fields_(fields) { set_quads(0); }
+  ~LayersOfTriangles() { set_quads(1); }
+  LayersOfTriangles(const LayersOfTriangles&) = delete;
+  LayersOfTriangles& operator=(const LayersOfTriangles&) = delete;
+
+ private:
+  void set_quads(double value) const {
+    run_logged([&] {
+      for (int field : fields_) ::gmsh::model::mesh::field::setNumber(field, "Quads", value);
+    });
+  }
+  const std::vector<int>& fields_;
+};
+
+/// The quads that Gmsh makes in layers stay as they are. Triangles that they enclose, in fans, may be odd, and no node
+/// on a curve changes that. Layers of triangles become quads, too, and nothing is left.
+StageLog generate_evenly(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
+                         DivisionReport& division) {
+  const auto generate_all = [&] {
+    StageLog log = generate(task, flags, keep_curves, division);
+    std::erase_if(log.errors, is_forgiven);
+    return log;
+  };
+  const StageLog log = generate_all();
+  const std::vector<int> surfaces = surfaces_of(task);
+  if (flags.quad_fields.empty() || !task.becomes_layers || task.kept_on_geometry || !log.errors.empty() ||
+      !has_enclosed_odd_regions(surfaces))
+    return log;
+  {
+    const LayersOfTriangles layers(flags.quad_fields);
+    const StageLog with_triangles = generate_all();
+    if (with_triangles.errors.empty() && !has_enclosed_odd_regions(surfaces)) return with_triangles;
+  }
+  return generate_all();
+}
+
 /// A curve of no surface, whose segments may happen to be edges in one: they stay, and part it.
 bool has_loose_curve() {
   ::gmsh::vectorpair curves;
@@ -258,8 +301,7 @@ MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_
   if (get_option("Mesh.Algorithm") == 8) set_option("Mesh.CrossFieldClosestPoint", 0);
 #endif
   MeshedModel meshed;
-  StageLog log = generate(task, flags, keep_curves, meshed.division);
-  std::erase_if(log.errors, is_forgiven);
+  const StageLog log = generate_evenly(task, flags, keep_curves, meshed.division);
   if (!log.errors.empty()) throw InputError("Gmsh cannot mesh it: " + first_errors(log));
   meshed.warnings = log.warnings;
   const std::vector<std::string> bare = check_every_surface_has_elements(log);

@@ -18,6 +18,7 @@ struct MeshingTask {
   std::vector<int> kept;          ///< surfaces whose elements stay
   bool kept_on_geometry = false;  ///< some of `kept` would be meshed again if Gmsh were not told
   bool compounds = false;         ///< there are some, inside which Gmsh divides curves as it likes
+  bool becomes_layers = true;     ///< rows of triangles become rows of quads
 
   bool is_empty() const { return bare.empty() && facets.empty(); }
 };

@@ -194,6 +194,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
   opened.compounds = name_compounds(scripts);
   MeshingTask task = find_meshing_task(opened.msh.version != 0);
   task.compounds = opened.compounds;
+  task.becomes_layers = options.becomes_layers;
   opened.had_mesh = opened.msh.version != 0 || !task.kept.empty();
   if (opened.had_mesh) opened.views = read_views(merged_data);  // else they say what size elements are to have
   if (task.is_empty() || options.no_meshing) return opened;

@@ -43,6 +43,7 @@ struct OpenOptions {
   std::string background{};           ///< file with a view that says what sizes elements have, or empty
   bool no_meshing = false;            ///< surfaces without elements stay so
   bool ignore_periodicity = false;    ///< of the file
+  bool becomes_layers = true;         ///< rows of triangles become rows of quads: Gmsh need not make these
   std::vector<int> keep_curves{};     ///< that get as many segments as Gmsh gives them
   std::function<void()> when_read{};  ///< called once all is read and before Gmsh meshes; may be empty
 };
