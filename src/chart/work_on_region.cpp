@@ -331,12 +331,20 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
   if (task == Task::convert && region.region.triangles.size() <= options.retry_triangles)
     for (const Options& variant : variants_of(options))
       if (Worker worker(region, variant, allowed, task, nothing); worker.run()) return worker.result();
-  constexpr std::size_t kFew = 50;
+  // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads then.
+  constexpr std::size_t kFew = 500;
   Distrust nodes;
   nodes.nodes = true;
   if (task == Task::convert && region.region.triangles.size() <= kFew)
     if (Worker worker(region, options, allowed, task, nodes); worker.run()) return worker.result();
   throw *first;
+}
+
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+  const Distrust nothing;
+  Worker worker(region, options, allowed, task, nothing);
+  if (!worker.run() || worker.doubtful() > 0) return {};
+  return worker.result();
 }
 
 }  // namespace qmorph::chart
