@@ -111,7 +111,7 @@ if(QMORPH_PYTHON)
 endif()
 # Debian has the text of the licence once for all packages.
 file(WRITE ${PROJECT_BINARY_DIR}/copyright "qmorph: ${PROJECT_DESCRIPTION}
-Copyright: ${CPACK_PACKAGE_CONTACT}
+Copyright: (C) ${CPACK_PACKAGE_CONTACT}
 License: GPL-2.0-or-later
 
 This program is free software; you can redistribute it and/or modify it under the terms of the GNU General Public License as

@@ -7,7 +7,9 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
+#include "chart/coarse.hpp"
 #include "chart/cutting_plane.hpp"
 #include "chart/local_numbers.hpp"
 #include "chart/opening.hpp"
@@ -26,6 +28,8 @@ constexpr double kMostDistortion = 1.2, kMostOfFew = 2;
 constexpr double kMany = 200, kFew = 30;
 /// Faces of a part that is looked at before it is laid flat, which costs more.
 constexpr std::size_t kLarge = 500;
+/// Of one that is judged by a few of its points, if that will do.
+constexpr std::size_t kVeryLarge = 2000;
 
 double most_distortion(std::size_t faces) {
   const double few = std::clamp((kMany - double(faces)) / (kMany - kFew), 0.0, 1.0);
@@ -34,8 +38,9 @@ double most_distortion(std::size_t faces) {
 
 class Dividing {
  public:
-  Dividing(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most)
-      : mesh_(mesh), opposite_(opposite), most_(double(most)) {
+  Dividing(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most,
+           bool at_a_glance)
+      : mesh_(mesh), opposite_(opposite), most_(double(most)), at_a_glance_(at_a_glance) {
     division_.is_cut = std::move(is_cut);
   }
 
@@ -57,6 +62,19 @@ class Dividing {
   bool is_good(const LaidOut& part) const {
     const Flattening& flattening = part.chart.flattening();
     return flattening.flipped == 0 && flattening.distortion <= most_distortion(part.piece.faces.size());
+  }
+
+  struct Judged {
+    bool is_good;
+    std::unique_ptr<LaidOut> laid_out;  ///< with the piece; null if a glance was enough, and then the piece stays
+  };
+  Judged judge(Piece& piece) const {
+    if (at_a_glance_ && piece.faces.size() >= kVeryLarge && !has_tip(piece))
+      if (const auto distortion = coarse_distortion(piece))
+        return {*distortion <= most_distortion(piece.faces.size()), nullptr};
+    auto part = std::make_unique<LaidOut>(std::move(piece));
+    const bool good = is_good(*part);
+    return {good, std::move(part)};
   }
 
   /// A disc whose total curvature is so large that there is no point in trying: half a sphere has 2 pi. Tips may be cut
@@ -98,25 +116,22 @@ class Dividing {
     division_.laid_out.push_back(std::move(part));
   }
 
-  std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) const {
-    return std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, faces);
-  }
-
   /// Accepts a part, or cuts it and returns what it falls into.
   std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
     Piece piece(mesh_, opposite_, division_.is_cut, faces);
     const bool is_to_be_cut = double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece);
     if (is_to_be_cut || has_to_be_opened(piece)) {
-      if (auto opened = is_to_be_cut ? nullptr : open(faces, piece)) return finish(faces, std::move(opened));
+      if (auto opened = is_to_be_cut ? std::nullopt : open(faces, piece)) return finish(faces, std::move(*opened));
       auto smaller = cut(faces, piece);
       if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
       return smaller;
     }
-    auto part = std::make_unique<LaidOut>(std::move(piece));
-    if (is_good(*part)) return finish(faces, std::move(part));
-    if (auto opened = open(faces, part->piece)) return finish(faces, std::move(opened));
-    auto smaller = cut(faces, part->piece);
-    if (smaller.empty()) accept(faces, std::move(part));
+    auto [is_good, part] = judge(piece);
+    if (is_good) return finish(faces, std::move(part));
+    const Piece& same = part ? part->piece : piece;
+    if (auto opened = open(faces, same)) return finish(faces, std::move(*opened));
+    auto smaller = cut(faces, same);
+    if (smaller.empty()) accept(faces, part ? std::move(part) : std::make_unique<LaidOut>(std::move(piece)));
     return smaller;
   }
 
@@ -124,7 +139,8 @@ class Dividing {
 
   /// Accepts a part that lies flat, but for tips that have to be cut first.
   std::vector<std::vector<Index>> finish(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
-    const std::vector<Index> path = path_from_narrow_tip(part->piece, part->chart.flat());
+    std::vector<Index> path;
+    if (part) path = path_from_narrow_tip(part->piece, part->chart.flat());
     if (path.empty()) {
       accept(faces, std::move(part));
       return {};
@@ -133,8 +149,9 @@ class Dividing {
     return components(faces, opposite_, division_.is_cut);
   }
 
-  /// Cuts along the paths that open the part, until it has a good chart. Null, and nothing is cut, if it never has.
-  std::unique_ptr<LaidOut> open(const std::vector<Index>& faces, const Piece& piece) {
+  /// Cuts along the paths that open the part, until it has a good chart; null in its place if a glance was enough.
+  /// Nothing, and nothing is cut, if it never has.
+  std::optional<std::unique_ptr<LaidOut>> open(const std::vector<Index>& faces, const Piece& piece) {
     std::vector<Index> sides;
     const std::vector<std::vector<Index>> paths = opening_paths(piece);
     for (std::size_t k = 0; k < paths.size(); ++k) {
@@ -144,11 +161,11 @@ class Dividing {
       }
       if (!std::has_single_bit(k + 1) && k + 1 < paths.size())
         continue;  // a surface with many holes is not laid flat for each
-      auto part = lay_out(faces);
-      if (is_good(*part)) return part;
+      Piece opened(mesh_, opposite_, division_.is_cut, faces);
+      if (auto [is_good, part] = judge(opened); is_good) return std::move(part);
     }
     for (Index side : sides) set_cut(side, false);
-    return nullptr;
+    return {};
   }
 
   std::vector<Index> sides_along(const Piece& piece, const std::vector<Index>& path) const {
@@ -217,14 +234,15 @@ class Dividing {
   const SurfaceMesh& mesh_;
   const std::vector<Index>& opposite_;
   const double most_;
+  const bool at_a_glance_;
   Division division_;
 };
 
 }  // namespace
 
-Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
-                std::size_t most) {
-  return Dividing(mesh, opposite, std::move(is_cut), most).run();
+Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most,
+                bool at_a_glance) {
+  return Dividing(mesh, opposite, std::move(is_cut), most, at_a_glance).run();
 }
 
 }  // namespace qmorph::chart

@@ -21,7 +21,7 @@ struct LaidOut {
 struct Division {
   std::vector<bool> is_cut;  ///< by side of the mesh
   std::vector<std::vector<Index>> parts;
-  std::vector<std::unique_ptr<LaidOut>> laid_out;  ///< of each part
+  std::vector<std::unique_ptr<LaidOut>> laid_out;  ///< of each part; null where nobody had to see its chart
 };
 
 /// Parts with a good chart and not many more than `most` faces. What a good chart has is not cut: discs that are curved
@@ -29,7 +29,8 @@ struct Division {
 /// curved more, and what has handles or no boundary, is cut in two along the shortest plane curve that does it, again
 /// and again. What cannot be cut any more may have a chart that is turned over here and there.
 /// \param is_cut sides that are cut already: creases
-Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
-                std::size_t most);
+/// \param at_a_glance large pieces are judged by a few of their points, for those who lay the parts out anew
+Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most,
+                bool at_a_glance = false);
 
 }  // namespace qmorph::chart

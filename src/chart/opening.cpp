@@ -91,6 +91,7 @@ class Joining {
 
 std::vector<std::vector<Index>> opening_paths(const Piece& piece) {
   const std::vector<Terminal> terminals = terminals_of(piece);
+  if (terminals.size() < 2) return {};
   const Joining joining(piece);
   std::vector<std::vector<Index>> paths;
   std::vector<char> joined(piece.points.size(), 0);
@@ -104,6 +105,13 @@ std::vector<std::vector<Index>> opening_paths(const Piece& piece) {
     for (Index v : terminal.points) joined[v] = 1;
   }
   return paths;
+}
+
+bool has_tip(const Piece& piece) {
+  for (const std::vector<Index>& loop : loops_of(piece))
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (piece.node[loop[(k + loop.size() - 1) % loop.size()]] == piece.node[loop[(k + 1) % loop.size()]]) return true;
+  return false;
 }
 
 std::vector<Index> path_from_narrow_tip(const Piece& piece, const std::vector<Vec2>& flat) {

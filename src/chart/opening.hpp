@@ -8,9 +8,11 @@ namespace qmorph::chart {
 /// it is a disc. The longest loops come first. Each path is a list of points.
 std::vector<std::vector<Index>> opening_paths(const Piece& piece);
 
-/// A boundary point may have one node before and after it: the end of a cut, or of a line inside. Where the corner
-/// there is so narrow that one quad would fill it, that quad would have the node twice. A path that halves the first
-/// such corner; empty if there is none.
+/// Whether a boundary point has one node before and after it: the end of a cut, or of a line inside.
+bool has_tip(const Piece& piece);
+
+/// Where the corner of a tip is so narrow that one quad would fill it, that quad would have the node twice. A path that
+/// halves the first such corner; empty if there is none.
 std::vector<Index> path_from_narrow_tip(const Piece& piece, const std::vector<Vec2>& flat);
 
 }  // namespace qmorph::chart

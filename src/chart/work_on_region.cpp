@@ -2,6 +2,7 @@
 #include "chart/work_on_region.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -36,7 +37,7 @@ struct Distrust {
   std::vector<char> triangles;
   bool interfaces = false;  ///< straight ones were too much
   bool all = false;
-  bool nodes = false;  ///< there are too few
+  int refinings = 0;  ///< there are too few nodes
 };
 
 /// One try.
@@ -69,6 +70,7 @@ class Worker {
   }
 
   std::size_t doubtful() const { return faults_.doubtful.size(); }
+  std::size_t turned() const { return faults_.turned.size(); }
 
   std::optional<SurfaceError> find_fault() const {
     const auto error_at = [&](Index f, const char* what, const char* why) {
@@ -112,7 +114,7 @@ class Worker {
 
   void start() {
     mesh_ = region_.start();
-    if (distrust_.nodes) mesh_ = refined(mesh_, region_.creases);
+    for (int i = 0; i < distrust_.refinings; ++i) mesh_ = refined(mesh_, region_.creases);
   }
 
   void divide_region() {
@@ -133,7 +135,7 @@ class Worker {
     opposite_ = opposite_sides(mesh_);
     const std::vector<bool> is_crease = sides_on(mesh_, region_.creases);
     creases_ = edges_on(mesh_, is_crease);
-    division_ = divide(mesh_, opposite_, is_crease, kMostOfChart);
+    division_ = divide(mesh_, opposite_, is_crease, kMostOfChart, straightens);
     std::vector<bool> is_interface = division_.is_cut;
     for (std::size_t side = 0; side < is_interface.size(); ++side)
       if (is_crease[side]) is_interface[side] = false;
@@ -287,6 +289,18 @@ class Worker {
   space::Faults faults_;
 };
 
+/// Of what several tries have made, that with the fewest doubtful elements.
+struct Best {
+  std::optional<RegionWork> work;
+  std::size_t doubtful = 0;
+
+  void consider(Worker& worker) {
+    if (work && worker.doubtful() >= doubtful) return;
+    doubtful = worker.doubtful();
+    work = worker.result();
+  }
+};
+
 /// With other constants of the front.
 std::vector<Options> variants_of(const Options& asked) {
   std::vector<Options> variants;
@@ -305,38 +319,47 @@ std::vector<Options> variants_of(const Options& asked) {
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
   constexpr int kTries = 4;
   constexpr std::size_t kSmall = 5000;  // triangles, so that a doubtful element is worth another try
-  const Distrust nothing;
+  constexpr std::size_t kFew = 50;      // so that it is worth all of them
+  const std::size_t size = region.region.triangles.size();
   Distrust distrust;
   std::optional<SurfaceError> first;
-  std::optional<RegionWork> best;
-  std::size_t fewest = 0;
+  Best best;
+  std::size_t fewest_turned = std::numeric_limits<std::size_t>::max();
   for (int i = 1; i <= kTries; ++i) {
     distrust.all = distrust.all || i == kTries;
     Worker worker(region, options, allowed, task, distrust);
     if (worker.run()) {
-      const std::size_t doubtful = worker.doubtful();
       const bool is_new = worker.learn(distrust);
-      if (!best || doubtful < fewest) best = worker.result(), fewest = doubtful;
-      if (fewest == 0 || !is_new || region.region.triangles.size() > kSmall) return std::move(*best);
+      best.consider(worker);
+      if (best.doubtful == 0 || !is_new || size > kSmall) break;
     } else {
       if (!first) first = worker.find_fault();
+      fewest_turned = std::min(fewest_turned, worker.turned());
       if (distrust.all) break;
       if (!worker.learn(distrust)) distrust.all = true;
     }
     distrust.interfaces = true;
   }
-  if (best) return std::move(*best);
+  if (best.work && (best.doubtful == 0 || size > kFew)) return std::move(*best.work);
   // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have
-  // one.
-  if (task == Task::convert && region.region.triangles.size() <= options.retry_triangles)
-    for (const Options& variant : variants_of(options))
-      if (Worker worker(region, variant, allowed, task, nothing); worker.run()) return worker.result();
+  // one, if there are few such places.
+  constexpr std::size_t kMostTurned = 4;
+  if (task == Task::convert && size <= options.retry_triangles && (best.work || fewest_turned <= kMostTurned)) {
+    const Distrust nothing;
+    for (const Options& variant : variants_of(options)) {
+      Worker worker(region, variant, allowed, task, nothing);
+      if (!worker.run()) continue;
+      best.consider(worker);
+      if (best.doubtful == 0 || size > kFew) return std::move(*best.work);
+    }
+  }
   // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads then.
-  constexpr std::size_t kFew = 500;
+  constexpr std::size_t kNotMany = 2000;
+  const int refinings = size <= kFew ? 3 : size <= kNotMany && !best.work ? 1 : 0;
   Distrust nodes;
-  nodes.nodes = true;
-  if (task == Task::convert && region.region.triangles.size() <= kFew)
-    if (Worker worker(region, options, allowed, task, nodes); worker.run()) return worker.result();
+  while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0))
+    if (Worker worker(region, options, allowed, task, nodes); worker.run()) best.consider(worker);
+  if (best.work) return std::move(*best.work);
   throw *first;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace qmorph::cleanup {
 
@@ -17,6 +19,18 @@ Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
     sum += sine;
   }
   if (!faces.empty()) worth.mean = sum / double(faces.size());
+  return worth;
+}
+
+Worth best_worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
+  constexpr double kRounding = 1e-9;
+  Worth worth;
+  for (Index v : nodes) {
+    if (!mesh.is_live_vertex(v) || !mesh.is_boundary(v)) continue;
+    const Index out = mesh.out(v), quads = mesh.valence(v) - 1;
+    const double angle = ccw_angle(-mesh.vector(mesh.prev(out)), mesh.vector(out));
+    if (quads > 0 && angle > 0) worth.worst = std::min(worth.worst, std::sin(angle / quads) + kRounding);
+  }
   return worth;
 }
 

@@ -15,6 +15,9 @@ struct Worth {
   std::size_t faces = 0;
 };
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+/// No relaxation makes them better than that: what shares the angle of a node of the boundary has a corner that is no
+/// nearer to right than an even share.
+Worth best_worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 
 /// The faces by their scaled Jacobians, the smallest first.
 std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces);
@@ -23,8 +26,8 @@ std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> face
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
 
 /// Carries out `edit(nodes)`, which changes the topology and appends the nodes around, removes the doublets that
-/// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`. Otherwise the mesh is
-/// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after.
+/// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`, which accepts what is
+/// better than something that it accepts. Otherwise the mesh is as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after.
 template <class Edit, class Accept>
 bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
              std::vector<Index>& nodes, const Edit& edit, const Accept& accept);
@@ -46,7 +49,7 @@ bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, co
   bool kept = edit(nodes);
   if (kept) {
     topology::remove_doublets(mesh, nodes);
-    kept = smoothing::smooth_near(mesh, relaxing, nodes, rings);
+    kept = accept(before, best_worth_around(mesh, nodes)) && smoothing::smooth_near(mesh, relaxing, nodes, rings);
   }
   if (kept) {
     const Worth after = worth_around(mesh, nodes);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "cleanup/node_queue.hpp"
 #include "cleanup/attempt.hpp"
+#include "cleanup/node_queue.hpp"
 
 namespace qmorph::cleanup {
 namespace {

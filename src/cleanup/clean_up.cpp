@@ -10,10 +10,11 @@ namespace qmorph::cleanup {
 // Cavities first: they keep the size of the elements better. Local changes mend what no cavity holds, at boundaries
 // above all, and leave fewer irregular nodes to cancel.
 
-std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
-  std::size_t changes = replace_cavities(mesh, smoothing, budget);
+std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
+                     const CavityLimits& limits) {
+  std::size_t changes = replace_cavities(mesh, smoothing, budget, limits);
   changes += change_valences(mesh, smoothing, budget);
-  if (changes > 0) changes += replace_cavities(mesh, smoothing, budget);
+  if (changes > 0) changes += replace_cavities(mesh, smoothing, budget, limits);
   return changes + straighten_bands(mesh, smoothing, budget);
 }
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cleanup/attempt.hpp"
 #include "cleanup/cavity.hpp"
 #include "cleanup/element_size.hpp"
 #include "cleanup/filling_choice.hpp"
 #include "cleanup/node_queue.hpp"
-#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {
@@ -140,10 +140,11 @@ class Replacing {
 
 }  // namespace
 
-std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
+                             const CavityLimits& limits) {
   std::vector<Index> nodes(mesh.vertex_slots());
   std::iota(nodes.begin(), nodes.end(), Index(0));
-  Replacing replacing(mesh, smoothing, budget);
+  Replacing replacing(mesh, smoothing, budget, limits);
   replacing.run(nodes);
   if (!budget.is_spent()) replacing.replace_all();
   return replacing.changes();

@@ -23,7 +23,8 @@ struct CavityLimits {
 /// Grows a disc of quads from each irregular node and replaces it by a filling (filling.hpp) whose valences score
 /// better, in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so
 /// do boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
-std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {});
+std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {},
+                             const CavityLimits& limits = {});
 
 /// The same, but that it begins with these nodes alone, and never replaces the region as a whole.
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cleanup/band_plan.hpp"
 #include "cleanup/attempt.hpp"
+#include "cleanup/band_plan.hpp"
 
 namespace qmorph::cleanup {
 namespace {

@@ -5,84 +5,30 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
+#include "engine/front_variants.hpp"
 #include "engine/parts/convert_parts.hpp"
 #include "engine/prepare.hpp"
+#include "engine/worth.hpp"
 #include "qmorph/error.hpp"
 #include "smoothing/corner_energy.hpp"
 
 namespace qmorph {
 namespace {
 
-/// What the stages made of a region.
+/// What the stages have made of a region so far.
 struct Attempt {
   kernel::Mesh mesh;
+  Options options{};
+  double allowed = 0;     ///< work
+  double promise = 0;     ///< what the mesh was worth when it was clean: nearly all about what it will be
+  bool is_quick = false;  ///< so that cleaning is not done
   ConversionReport report{};
   Record record{};
   std::optional<SurfaceError> fault{};
 };
-
-/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1
-/// and 2.2.
-double shape(const kernel::Mesh& mesh, Index f) {
-  double least = 1;
-  Index h = mesh.half_edge(f);
-  for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) {
-    const Vec2 a = mesh.vector(h), b = -mesh.vector(mesh.prev(h));
-    least = std::min(least, 4 * cross(a, b) / (a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm()));
-  }
-  return least;
-}
-
-struct Worth {
-  double least = 1;   ///< smallest scaled Jacobian of a quad
-  double mean = 0;    ///< of shapes
-  double growth = 0;  ///< quads over those that take the place of equilateral triangles with sides as long
-  /// Once the worst quad is good enough for every solver, it counts for little, and the others count. Many quads that
-  /// are smaller than asked for have good shapes easily, so growth counts against a result.
-  double sum() const {
-    constexpr double kLittle = 0.1, kFairGrowth = 1.25;
-    return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
-           2 * mean - std::max(0.0, growth - kFairGrowth);
-  }
-  bool is_poor() const { return least < kFine; }
-  static constexpr double kGoodEnough = 0.4, kFine = 0.7;
-};
-
-/// `triangles`: how many the region had.
-Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles) {
-  constexpr double kTrianglesPerQuad = 2.31;  // of the same sides: 4 / sqrt(3)
-  Worth worth;
-  std::size_t faces = 0;
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f)) continue;
-    if (mesh.is_quad(f)) worth.least = std::min(worth.least, mesh.smallest_sine(f));
-    worth.mean += shape(mesh, f), ++faces;
-  }
-  if (faces > 0) worth.mean /= double(faces);
-  worth.growth = kTrianglesPerQuad * double(faces) / double(triangles);
-  return worth;
-}
-
-/// The options that the caller asked for, with other constants of the front.
-std::vector<Options> variants_of(const Options& asked) {
-  std::vector<Options> variants;
-  for (double corner : {1.0, 0.9, 1.1})
-    for (double side : {1.0, 0.5, 1.5})
-      for (double transition : {1.0, 0.7})
-        for (double seam : {1.0, 0.5}) {
-          Options options = asked;
-          options.front.corner_angle *= corner;
-          options.front.side_edge_angle *= side;
-          options.front.transition_ratio *= transition;
-          options.front.seam_angle *= seam;
-          options.front.seam_angle_many *= seam;
-          variants.push_back(options);
-        }
-  variants.erase(variants.begin());  // as asked
-  return variants;
-}
 
 bool is_small(const Region& region, const Options& options) {
   return 2 * region.triangles.size() <= options.retry_triangles;
@@ -91,15 +37,20 @@ bool is_small(const Region& region, const Options& options) {
 /// Whether so many triangles are few enough for other constants of the front.
 bool may_try_again(std::size_t triangles, const Options& options) { return triangles <= 2 * options.retry_triangles; }
 
-/// A front that was finished, and what it has cost.
+/// What a front has decided and made.
 struct Front {
   front::Decisions decisions;
   std::uint64_t fingerprint;  ///< of what it has made
-  std::size_t front_work, finish_work;
 };
 
 /// What an attempt costs however small the region is.
 constexpr std::size_t kWorkPerAttempt = 200;
+/// Of a triangle that is added where a fan is graded: the front's, above all.
+constexpr std::size_t kWorkToGrade = 150;
+/// What tries may cost before the last of them, for each triangle; and if a corner is poor after these.
+constexpr std::size_t kWorkForTries = 150, kWorkIfPoor = 6000;
+/// How far cavities grow in a try, until it is known to be the best.
+constexpr int kQuickGrowth = 1;
 
 class RegionConverter {
  public:
@@ -116,13 +67,21 @@ class RegionConverter {
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
       constexpr std::size_t kFewest = 3;                // with fewer a front has no choice
       const bool has_tries = size >= kFewest && may_try_again(size, options_);
-      Attempt first = attempt(has_tries ? start_ : std::move(start_), options_, allowed_, true);
-      if (!first.fault) return has_tries ? best_of_variants(std::move(first), size) : std::move(first);
-      fault = first.fault;
+      Attempt result;
+      if (has_tries) {
+        result = best_of_tries(size);
+      } else {
+        result = begin(std::move(start_), options_, allowed_);
+        finish(result);
+        take_rows(result);
+      }
+      if (!result.fault) return result;
+      fault = result.fault;
       if (!has_tries) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
-    Attempt paired = attempt(std::move(start_), options_, allowed_ - double(cost_), false);
+    Attempt paired = begin(std::move(start_), options_, allowed_ - double(cost_), Way::without_front);
+    finish(paired);
     if (paired.fault) throw *fault;
     return paired;
   }
@@ -138,89 +97,134 @@ class RegionConverter {
     if (wants_stages(options_)) input_ = start_;
     repair_input(start_, region_.node, plane_);
     grade_fans(start_);
+    // What makes fans better is no reason to spend more on the region.
+    const std::size_t size = count_faces(start_, 3), before = region_.triangles.size();
+    if (size > before) start_.add_work(kWorkToGrade * (size - before));
   }
 
   Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
 
-  /// `size`: triangles that the front begins with.
-  Attempt best_of_variants(Attempt best, std::size_t size) {
-    // Under the lower bound it is the boundary that is poor, and no try changes that.
-    constexpr double kGood = 2.05, kHopeless = 0.1;
-    constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
-    std::size_t triangles = size;
-    // A poor quad is worth some tries in a region that is not so small, too.
-    constexpr std::size_t kTries = 6;
-    Worth worth = judge(best.mesh);
-    if (worth.least < kHopeless || (!is_small_ && !worth.is_poor())) return best;
-    const std::size_t most = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
-    // Where a boundary is all spikes, an attempt may cost ten times as much as usual, and none is better.
-    constexpr std::size_t kWorkPerTriangle = 2000;
-    const std::size_t first = cost_;  // of the first attempt; each other one costs about as much
-    for (const Options& options : variants_of(options_)) {
-      triangles += size;
-      if (triangles > most || (worth.sum() > kGood && !worth.is_poor())) break;
-      if (cost_ > kWorkPerTriangle * most) break;
-      if (double(cost_ + first) > allowed_) {
-        ++best.report.budgets_spent;
-        break;
-      }
-      if (const Front* same = made_before(options.front)) {
-        cost_ += same->front_work + same->finish_work;
-        continue;
-      }
-      Attempt other = attempt(start_, options, allowed_ - double(cost_ - first), true,
-                              kMostGrowth * (count_faces(best.mesh, 4) + kFew));
-      const Worth others = judge(other.mesh);
-      if (other.fault || others.sum() <= worth.sum()) continue;
-      best = std::move(other);
-      worth = others;
+  /// A thin band as rows, if they are worth more.
+  void take_rows(Attempt& best) {
+    const std::optional<bands::Band> band = best.fault ? std::nullopt : bands::find_band(region_);
+    if (!band) return;
+    constexpr double kAsGood = 0.01, kFair = 0.5;
+    for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
+      auto rows = bands::lay_rows(*band, region_.points, costs);
+      if (!rows || double(cost_) > allowed_) return;
+      Attempt laid = begin(std::move(*rows), options_, allowed_ - double(cost_), Way::without_front);
+      finish(laid);
+      const Worth one = judge(laid.mesh), other = judge(best.mesh);
+      // A poor quad more is too high a price for rows.
+      if (laid.fault || one.sum() <= other.sum() || one.least < std::min(other.least - kAsGood, kFair)) continue;
+      best = std::move(laid);
     }
+  }
+
+  /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
+  /// front begins with.
+  Attempt best_of_tries(std::size_t size) {
+    // Under the first it is the boundary that is poor, and no try changes that.
+    constexpr double kHopeless = 0.1, kPoor = 0.4;
+    constexpr int kMostIfPoor = 2;
+    Attempt best = begin(start_, options_, allowed_, Way::one_of_many);
+    finish(best);
+    take_rows(best);
+    Worth worth = judge(best.mesh);
+    if (best.fault || worth.least < kHopeless || is_good(worth)) return best;
+    std::vector<Attempt> tries;
+    const auto finish_most_promising = [&] {
+      const auto promising = std::max_element(tries.begin(), tries.end(),
+                                              [](const Attempt& a, const Attempt& b) { return a.promise < b.promise; });
+      finish(*promising);
+      const Worth other = judge(promising->mesh);
+      if (!promising->fault && other.sum() > worth.sum()) best = std::move(*promising), worth = other;
+      tries.erase(promising);
+    };
+    add_tries(tries, best, size, worth, true);
+    if (!tries.empty()) finish_most_promising();
+    if (worth.least >= kPoor) return best;
+    add_tries(tries, best, size, worth, false);
+    for (int i = 0; i < kMostIfPoor && !tries.empty() && worth.least < kPoor; ++i) finish_most_promising();
     return best;
   }
 
-  Attempt attempt(kernel::Mesh mesh, const Options& options, double allowed, bool with_front,
-                  std::size_t most_faces = std::size_t(-1)) {
-    Attempt result{std::move(mesh)};
-    result.mesh.add_work(kWorkPerAttempt);
-    Options final = options;
-    if (is_small_) final.smoothing.good_quality = 0;  // raise_corners() tries what pays
-    Pipeline pipeline(final, result.report, result.record, input_, allowed);
-    // Without a second try there is nothing to compare with.
-    const bool notes_fronts = with_front && may_try_again(region_.triangles.size(), options_);
-    Front front{};
-    if (with_front) pipeline.advance_front(result.mesh, plane_, notes_fronts ? &front.decisions : nullptr);
-    const std::size_t front_work = result.mesh.work();
-    cost_ += front_work;
-    if (count_faces(result.mesh, 3) + count_faces(result.mesh, 4) > most_faces) {
-      result.fault = SurfaceError("too many elements");
-      return result;
-    }
-    front.front_work = front_work;
-    if (notes_fronts) {
-      front.fingerprint = result.mesh.fingerprint();
-      const auto same = std::find_if(finished_.begin(), finished_.end(),
-                                     [&](const Front& other) { return other.fingerprint == front.fingerprint; });
-      if (same != finished_.end()) {
-        result.fault = SurfaceError("the front has made this before");
-        cost_ += front.finish_work = same->finish_work;
-        finished_.push_back(front);
-        return result;
+  bool is_good(const Worth& worth) const {
+    constexpr double kGood = 2.05;
+    return !worth.is_poor() && (!is_small_ || worth.sum() > kGood);
+  }
+
+  /// Adds what other constants of the front make, after those that were tried before, as far as the work goes. `best`
+  /// has `worth`; quick ones are fewer.
+  void add_tries(std::vector<Attempt>& tries, Attempt& best, std::size_t size, const Worth& worth, bool is_quick) {
+    constexpr std::size_t kMostGrowth = 2, kFew = 20;  // a front that makes many more faces than that has gone astray
+    // A poor quad is worth some tries in a region that is not so small, too.
+    constexpr std::size_t kTries = 6;
+    const std::size_t most_triangles = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
+    const std::size_t most_faces = kMostGrowth * (count_faces(best.mesh, 4) + kFew);
+    const std::vector<Options> variants = front_variants(options_);
+    const std::size_t before = cost_, most_work = (is_quick ? kWorkForTries : kWorkIfPoor) * size;
+    for (; next_variant_ < variants.size(); ++next_variant_) {
+      const Options& options = variants[next_variant_];
+      if ((next_variant_ + 2) * size > most_triangles || cost_ - before > most_work) break;
+      if (double(cost_ + best.mesh.work()) > allowed_) {
+        ++best.report.budgets_spent;
+        break;
       }
+      if (would_repeat(options.front)) continue;
+      Attempt other = begin(start_, options, allowed_ - double(cost_), Way::one_of_many, is_quick);
+      if (!other.fault && count_faces(other.mesh, 4) <= most_faces) tries.push_back(std::move(other));
     }
-    pipeline.finish(result.mesh);
-    cost_ += front.finish_work = result.mesh.work() - front_work;
-    if (notes_fronts) finished_.push_back(front);
-    if (is_small_) raise_corners(result.mesh, options.smoothing);
-    if (is_small_ && wants_stages(options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
-    result.fault = find_fault(result.mesh, region_, plane_);
+  }
+
+  /// How a mesh of quads comes about.
+  enum class Way { with_front, one_of_many, without_front };
+
+  /// Up to where the mesh is clean.
+  Attempt begin(kernel::Mesh mesh, const Options& options, double allowed, Way way = Way::with_front,
+                bool is_quick = false) {
+    Attempt result{std::move(mesh), options, allowed};
+    result.is_quick = is_quick;
+    result.mesh.add_work(kWorkPerAttempt);
+    if (is_small_) result.options.smoothing.good_quality = 0;  // raise_corners() tries what pays
+    Pipeline pipeline(result.options, result.report, result.record, input_, allowed);
+    Front front{};
+    if (way != Way::without_front)
+      pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
+    cleanup::CavityLimits limits;
+    if (is_quick) limits.most_growth = kQuickGrowth;
+    if (way == Way::one_of_many && is_repeated(front, result.mesh))
+      result.fault = SurfaceError("the front has made this before");
+    else
+      pipeline.clean(result.mesh, limits);
+    cost_ += result.mesh.work();
+    if (way == Way::one_of_many) result.promise = judge(result.mesh).sum();
     return result;
   }
 
-  /// The finished front that these constants would repeat, or null.
-  const Front* made_before(const FrontOptions& options) const {
-    for (const Front& front : finished_)
-      if (front.decisions.would_be_same(options)) return &front;
-    return nullptr;
+  /// Notes the front, of which `mesh` came, and whether another has made the same.
+  bool is_repeated(Front& front, const kernel::Mesh& mesh) {
+    front.fingerprint = mesh.fingerprint();
+    const bool is_repeated = std::any_of(fronts_.begin(), fronts_.end(),
+                                         [&](const Front& other) { return other.fingerprint == front.fingerprint; });
+    fronts_.push_back(front);
+    return is_repeated;
+  }
+
+  void finish(Attempt& result) {
+    const std::size_t before = result.mesh.work();
+    Pipeline pipeline(result.options, result.report, result.record, input_, result.allowed);
+    if (result.is_quick) pipeline.clean_further(result.mesh);
+    pipeline.polish(result.mesh);
+    cost_ += result.mesh.work() - before;
+    if (is_small_) raise_corners(result.mesh, options_.smoothing);
+    if (is_small_ && wants_stages(result.options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
+    result.fault = find_fault(result.mesh, region_, plane_);
+  }
+
+  bool would_repeat(const FrontOptions& options) const {
+    return std::any_of(fronts_.begin(), fronts_.end(),
+                       [&](const Front& front) { return front.decisions.would_be_same(options); });
   }
 
   /// Nothing if the region is not large, or has no valid result in parts.
@@ -256,9 +260,10 @@ class RegionConverter {
   const bool is_small_;  ///< so that a second try is allowed
   const double allowed_;
   std::size_t cost_ = 0;
-  std::vector<Front> finished_;
-  kernel::Mesh start_;  ///< what the front begins with
-  kernel::Mesh input_;  ///< as it came, if stages are measured
+  std::vector<Front> fronts_;
+  std::size_t next_variant_ = 0;  ///< of front_variants()
+  kernel::Mesh start_;            ///< what the front begins with
+  kernel::Mesh input_;            ///< as it came, if stages are measured
 };
 
 /// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.

@@ -83,7 +83,12 @@ void Pipeline::finish(kernel::Mesh& mesh) {
   polish(mesh);
 }
 
-void Pipeline::clean(kernel::Mesh& mesh) {
+void Pipeline::clean_further(kernel::Mesh& mesh) {
+  cleanup::clean_up(mesh, options_.smoothing, until(mesh, kCleanup));
+  end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
+}
+
+void Pipeline::clean(kernel::Mesh& mesh, const cleanup::CavityLimits& limits) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   const kernel::Budget elimination = until(mesh, kElimination);
   elimination::eliminate_triangles(mesh, options_.smoothing, elimination::Means::moving, elimination);
@@ -99,7 +104,7 @@ void Pipeline::clean(kernel::Mesh& mesh) {
   cleanup::eliminate_chevrons(mesh, options_.cleanup, options_.smoothing, boundary);
   cleanup::clean_up_boundary(mesh, options_.cleanup, options_.smoothing, boundary);
   note(boundary);
-  cleanup::clean_up(mesh, options_.smoothing, cleanup);
+  cleanup::clean_up(mesh, options_.smoothing, cleanup, limits);
   cleanup::clean_up_connectivity(mesh, options_.cleanup, options_.smoothing, cleanup);
   note(cleanup);
   end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);
@@ -151,7 +156,7 @@ void Pipeline::polish(kernel::Mesh& mesh) {
     note(last);
   }
   if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
-    smoothing::raise_worst_corners(mesh, options_.smoothing);
+    smoothing::raise_worst_corners(mesh, options_.smoothing, until(mesh, 1));
   progress("smoothing", 1);
   end_stage(Stage::repair, mesh, report_.cleanup_seconds);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "cleanup/replace_cavities.hpp"
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
 #include "front/decisions.hpp"
@@ -31,7 +32,8 @@ class Pipeline {
 
   /// finish() is clean() and polish(). In between, parts that were cleaned side by side may be joined; then irregular
   /// nodes near their interfaces cancel.
-  void clean(kernel::Mesh& mesh);
+  void clean(kernel::Mesh& mesh, const cleanup::CavityLimits& limits = {});
+  void clean_further(kernel::Mesh& mesh);
   void clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface);
   void polish(kernel::Mesh& mesh);
 

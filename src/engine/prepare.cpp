@@ -27,6 +27,21 @@ bool swap_away(Mesh& mesh, Index f) {
   return true;
 }
 
+/// Flat triangles are often nested: across the longest side of one lies the next, and so on to a good triangle. From
+/// `f` to the last flat one. The longest sides get longer, so that it ends.
+std::vector<Index> chain_of(const Mesh& mesh, Index f) {
+  std::vector<Index> chain{f};
+  Index side = longest_side(mesh, f);
+  for (;;) {
+    const Index across = mesh.face(mesh.twin(side));
+    if (!mesh.is_triangle(across) || mesh.is_valid_face(across)) return chain;
+    const Index longer = longest_side(mesh, across);
+    if (!(mesh.length(longer) > mesh.length(side))) return chain;
+    chain.push_back(across);
+    side = longer;
+  }
+}
+
 bool move_away(Mesh& mesh, Index f) {
   SmoothingOptions options;
   options.iterations = 0;
@@ -42,6 +57,15 @@ std::optional<ErrorSubject> subject_of(const Mesh& mesh, const std::vector<Index
   const Index v = mesh.origin(mesh.half_edge(f));
   if (v >= node.size() || node[v] == kNone) return std::nullopt;
   return node_row(node[v]);
+}
+
+/// From the good triangle inwards: a swap needs one.
+void repair_chain(Mesh& mesh, const std::vector<Index>& chain, const std::vector<Index>& node, const Plane& plane) {
+  for (auto f = chain.rbegin(); f != chain.rend(); ++f)
+    if (!mesh.is_valid_face(*f) && !swap_away(mesh, *f) && !move_away(mesh, *f))
+      throw SurfaceError(
+          "the triangle " + corners_of(mesh, plane, *f) + " has no area and its nodes are fixed; remove or collapse it",
+          {.kind = ErrorKind::bad_element, .place = corner_of(mesh, plane, *f), .subject = subject_of(mesh, node, *f)});
 }
 
 }  // namespace
@@ -71,10 +95,7 @@ void repair_input(Mesh& mesh, const std::vector<Index>& node, const Plane& plane
     flat.push_back(f);
   }
   for (Index f : flat)
-    if (!mesh.is_valid_face(f) && !swap_away(mesh, f) && !move_away(mesh, f))
-      throw SurfaceError(
-          "the triangle " + corners_of(mesh, plane, f) + " has no area and its nodes are fixed; remove or collapse it",
-          {.kind = ErrorKind::bad_element, .place = corner_of(mesh, plane, f), .subject = subject_of(mesh, node, f)});
+    if (!mesh.is_valid_face(f)) repair_chain(mesh, chain_of(mesh, f), node, plane);
 }
 
 std::optional<SurfaceError> find_needles(const Mesh& mesh, const Plane& plane) {

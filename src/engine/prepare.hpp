@@ -12,8 +12,9 @@ namespace qmorph {
 struct Plane;
 
 /// Makes the triangles of a region fit to start from: zero-area triangles are turned away by a swap of their longest
-/// side or by moving a free corner. Throws SurfaceError where that is impossible, or where a triangle is turned over,
-/// which means that triangles overlap. `node`: row of Patch::points of each vertex, for errors.
+/// side, nested ones from the good triangle inwards, or by moving a free corner. Throws SurfaceError where that is
+/// impossible, or where a triangle is turned over, which means that triangles overlap. `node`: row of Patch::points of
+/// each vertex, for errors.
 void repair_input(kernel::Mesh& mesh, const std::vector<Index>& node, const Plane& plane);
 
 /// A complaint, if a large share of the triangles is thinner than an element may be (`kStraightSine`). A few of these

@@ -5,28 +5,22 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "parity/balance.hpp"
 #include "parity/plan.hpp"
+#include "parity/row.hpp"
 #include "parity/unknowns.hpp"
 
 namespace qmorph::parity {
 namespace {
 
 using Shares = std::vector<Share>;
-using Row = std::vector<Index>;  ///< unknowns whose sum is to be even, in order
 
 /// Sides whose numbers are farther apart than this need rows that end between them.
 bool is_near(double a, double b) {
   constexpr double kMostRatio = 1.4;
   return std::max(a, b) <= kMostRatio * std::max(1.0, std::min(a, b));
-}
-
-/// Those that are in one of the two.
-Row symmetric_difference(const Row& a, const Row& b) {
-  Row difference;
-  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(difference));
-  return difference;
 }
 
 /// Members of a band that are to change: one of each side as long as there are, which may both go up.
@@ -87,7 +81,7 @@ class Planner {
     for (Index c : curves) row = symmetric_difference(row, {unknowns_.of_curve(c)});
     return row;
   }
-  std::vector<Row> rows() const;
+  std::vector<Row> rows() const;  ///< unknowns whose sum is to be even
   std::vector<Row> links_of(const std::vector<Row>& rows) const;
   std::int64_t price(Index u) const;
   void make_even();
@@ -177,8 +171,12 @@ void Planner::make_even() {
   std::vector<PricedLink> priced;
   std::vector<Index> of_link;
   for (Index u = 0; u < unknowns_.size(); ++u) {
-    if (!unknowns_.may_change(u, 1) || links[u].empty() || links[u].size() > 2) continue;
-    priced.push_back({links[u][0], links[u].size() == 2 ? links[u][1] : kOutside, price(u)});
+    const Row& rows_of_u = links[u];
+    if (!unknowns_.may_change(u, 1) || rows_of_u.empty()) continue;
+    PricedLink link{rows_of_u[0], kOutside, price(u)};
+    if (rows_of_u.size() > 1) link.b = rows_of_u[1];
+    if (rows_of_u.size() > 2) link.others.assign(rows_of_u.begin() + 2, rows_of_u.end());
+    priced.push_back(std::move(link));
     of_link.push_back(u);
   }
   std::vector<Index> changed;

@@ -42,8 +42,7 @@ struct IntervalPlan {
 };
 
 /// Never changes a fixed number, nor goes below the least. A curve of one segment is divided only if other ways are much
-/// longer. The parities are exact as long as each curve matters to two surfaces, as in a plane; where images make it more,
-/// some surfaces may stay odd that need not. Cost: as `plan_cheapest`, and (segments that the bands lack) * (curves).
+/// longer. As many surfaces become even as the curves allow. Cost: as `plan_cheapest`, and (segments that the bands lack) * (curves).
 QMORPH_API IntervalPlan plan_intervals(const IntervalProblem& problem);
 
 }  // namespace qmorph::parity

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "parity/matching.hpp"
+#include "parity/shared_by_many.hpp"
 
 namespace qmorph::parity {
 namespace {
@@ -21,12 +22,13 @@ struct Step {
   Cost cost;
 };
 
-/// The regions and, last, the outside, with the cheapest link of each pair.
+/// The regions and, last, the outside, with the cheapest link of each pair. Links of more regions are left out.
 class Graph {
  public:
   Graph(std::size_t regions, const std::vector<PricedLink>& links) : outside_(Index(regions)), steps_(regions + 1) {
     std::map<std::pair<Index, Index>, Index> best;
     for (Index i = 0; i < links.size(); ++i) {
+      if (!links[i].others.empty()) continue;
       const Index a = node_of(links[i].a), b = node_of(links[i].b);
       if (a == b) continue;  // both sides are one region's: nothing changes
       const auto [at, is_new] = best.try_emplace(std::minmax(a, b), i);
@@ -109,7 +111,7 @@ std::vector<PricedLink> price(std::size_t regions, const std::vector<Link>& link
   std::vector<PricedLink> priced;
   for (const Link& link : links) {
     const double shortness = most > 0 ? 1 - link.length / most : 0;
-    priced.push_back({link.a, link.b, link.splits * kOneSplit + Cost(shortness * double(most_extra))});
+    priced.push_back({link.a, link.b, link.splits * kOneSplit + Cost(shortness * double(most_extra)), link.others});
   }
   return priced;
 }
@@ -132,13 +134,8 @@ std::vector<std::pair<Index, Index>> take_near_pairs(std::vector<Index>& members
   return pairs;
 }
 
-}  // namespace
-
-Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links) {
-  return plan_cheapest(odd, price(odd.size(), links));
-}
-
-Plan plan_cheapest(const std::vector<bool>& odd, const std::vector<PricedLink>& links) {
+/// Of links that change two regions at most.
+Plan join_in_pairs(const std::vector<bool>& odd, const std::vector<PricedLink>& links) {
   const Graph graph(odd.size(), links);
   std::vector<Index> terminals;
   std::vector<Ways> ways;
@@ -184,6 +181,22 @@ Plan plan_cheapest(const std::vector<bool>& odd, const std::vector<PricedLink>& 
   for (Index i = 0; i < links.size(); ++i)
     if (split[i]) plan.splits.push_back(i);
   std::sort(plan.odd_left.begin(), plan.odd_left.end());
+  return plan;
+}
+
+}  // namespace
+
+Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links) {
+  return plan_cheapest(odd, price(odd.size(), links));
+}
+
+Plan plan_cheapest(std::vector<bool> odd, const std::vector<PricedLink>& links) {
+  const std::vector<Index> shared = choose_shared_by_many(odd, links);
+  for (Index link : shared)
+    for (Index region : regions_of(links[link])) odd[region] = !odd[region];
+  Plan plan = join_in_pairs(odd, links);
+  plan.splits.insert(plan.splits.end(), shared.begin(), shared.end());
+  std::sort(plan.splits.begin(), plan.splits.end());
   return plan;
 }
 

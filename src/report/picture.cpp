@@ -22,6 +22,8 @@ constexpr Colour kSides{64, 64, 64}, kInk{16, 16, 16}, kPlain{255, 255, 255}, kW
 constexpr double kThin = 0.05, kMostThin = 0.5, kThick = 0.16, kMostThick = 1.4, kMark = 0.24, kMostMark = 4;
 /// Of white, how light a face is that is seen from its side, where faces have no colour.
 constexpr double kDimmest = 0.55;
+/// Towards the side, sides of faces get thinner, and nodes between such faces have no room for marks.
+constexpr double kThinnest = 0.2, kMarked = 0.2;
 
 /// How nodes are marked, by valence; 0: all others.
 struct Mark {
@@ -94,13 +96,15 @@ class Picture {
 
   /// In the light of a lamp at the eye: without it a surface of one colour has no shape.
   void shade_faces() {
-    for (std::size_t f = 0; f < shades_.size(); ++f) {
-      const auto& n = scene_.faces[f];
-      const Index last = corners_of(n) - 1;
-      const Eigen::Vector3d normal = (at(n[2]) - at(n[0])).cross(at(n[last]) - at(n[1])).stableNormalized();
-      const double light = kDimmest + (1 - kDimmest) * std::abs(normal.z());
-      shades_[f].red = shades_[f].green = shades_[f].blue = std::uint8_t(std::lround(255 * light));
-    }
+    for (std::size_t f = 0; f < shades_.size(); ++f)
+      shades_[f].red = shades_[f].green = shades_[f].blue =
+          std::uint8_t(std::lround(255 * (kDimmest + (1 - kDimmest) * facing(f))));
+  }
+  /// 1 for a face that is seen from in front, 0 for one from its side.
+  double facing(std::size_t f) const {
+    const auto& n = scene_.faces[f];
+    const Index last = corners_of(n) - 1;
+    return std::abs((at(n[2]) - at(n[0])).cross(at(n[last]) - at(n[1])).stableNormalized().z());
   }
   Eigen::Vector3d at(Index node) const { return {places_[node].x(), places_[node].y(), depths_[node]}; }
 
@@ -163,8 +167,12 @@ class Picture {
     std::vector<Eigen::Vector3d> points;
     for (Index v = 0; v < places_.size(); ++v) points.push_back(at(v));
     const DepthBuffer buffer(points, scene_.faces);
+    std::vector<double> most_facing(points.size(), 0);
     for (std::size_t f : buffer.back_to_front()) {
-      drawing_.shapes.push_back({{path_of(f)}, shades_[f], kSides, thin()});
+      const double facing = this->facing(f), width = thin() * std::clamp(2 * facing, kThinnest, 1.0);
+      drawing_.shapes.push_back({{path_of(f)}, shades_[f], kSides, width});
+      for (Index i = 0; i < corners_of(scene_.faces[f]); ++i)
+        most_facing[scene_.faces[f][i]] = std::max(most_facing[scene_.faces[f][i]], facing);
       Shape curves{{}, {}, kInk, thick()};
       const auto& face = scene_.faces[f];
       for (Index i = 0, n = corners_of(face); i < n; ++i)
@@ -172,7 +180,8 @@ class Picture {
           curves.paths.push_back(segment({face[i], face[(i + 1) % n]}));
       if (!curves.paths.empty()) drawing_.shapes.push_back(std::move(curves));
     }
-    if (colour_ != PictureColour::none) draw_marks([&](Index v) { return buffer.sees(points[v]); });
+    if (colour_ != PictureColour::none)
+      draw_marks([&](Index v) { return most_facing[v] > kMarked && buffer.sees(points[v]); });
   }
 
   const Scene& scene_;

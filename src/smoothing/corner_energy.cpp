@@ -83,7 +83,10 @@ Energy corners_around(const Mesh& mesh, Index v, const Vec2& p, bool derive) {
 
 /// Returns how far the node moved, in edge lengths.
 double improve(Mesh& mesh, Index v, double good) {
+  constexpr std::size_t kWorkOfDerivatives = 6, kWorkOfValue = 3;  // for each element
   const Vec2 start = mesh.point(v);
+  const std::size_t elements = mesh.valence(v);
+  mesh.add_work(kWorkOfDerivatives * elements);
   const Energy energy = corners_around(mesh, v, start, true);
   if (!energy.finite) return 0;
   const double edge = mesh.mean_edge(v), worst = std::min(good, mesh.smallest_sine_around(v));
@@ -96,6 +99,7 @@ double improve(Mesh& mesh, Index v, double good) {
     step = -0.1 * edge / g.norm() * g;
   for (double share = 1; share > 0.05; share /= 2) {
     const Vec2 p = start + share * step;
+    mesh.add_work(kWorkOfValue * elements);
     const Energy there = corners_around(mesh, v, p, false);
     if (!there.finite || !(there.value < energy.value)) continue;
     mesh.set_point(v, p);
@@ -160,10 +164,10 @@ Energy corner_energy(std::span<const StarElement> elements, const Vec2& p, bool 
   return energy;
 }
 
-void raise_worst_corners(Mesh& mesh, const SmoothingOptions& options) {
-  constexpr int kRings = 1, kPasses = 8;
+void raise_worst_corners(Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget) {
+  constexpr int kRings = 1, kPasses = 8, kFewest = 2;
   const std::vector<Index> nodes = nodes_near_bad(mesh, options.good_quality, kRings);
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kPasses && (pass < kFewest || !budget.is_spent()); ++pass) {
     double moved = 0;
     for (Index v : nodes) moved = std::max(moved, improve(mesh, v, options.good_quality));
     if (moved < options.move_tolerance) break;

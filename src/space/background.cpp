@@ -92,8 +92,9 @@ Foot Background::walk(const Vector3d& p, Index hint) const {
     // What is nearer to p than its foot is nearer to the foot than twice that distance: across sides that are, and at
     // corners.
     const double reach2 = 4 * here.distance2;
+    const std::array<double, 3> height2 = squared_heights(here);
     for (int i = 0; i < 3; ++i)
-      if (height2(here, (i + 2) % 3) <= reach2)
+      if (height2[i] <= reach2)
         if (const Index other = neighbour(t, i); other != kNone) look_at(other);
     if (best.triangle != t) continue;
     for (Index i = 0; i < 3; ++i)
@@ -104,12 +105,16 @@ Foot Background::walk(const Vector3d& p, Index hint) const {
   return best;
 }
 
-/// Squared distance of a foot from the side of its triangle across from corner i; 0 in a triangle without area.
-double Background::height2(const Foot& foot, int i) const {
-  const Vector3d &a = corner(foot.triangle, i), &b = corner(foot.triangle, (i + 1) % 3),
-                 &c = corner(foot.triangle, (i + 2) % 3);
-  const double side2 = (c - b).squaredNorm(), share = foot.weights[i];
-  return side2 > 0 ? share * share * (b - a).cross(c - a).squaredNorm() / side2 : 0;
+/// Squared distances of a foot from the sides of its triangle; 0 in a triangle without area.
+std::array<double, 3> Background::squared_heights(const Foot& foot) const {
+  const Vector3d &a = corner(foot.triangle, 0), &b = corner(foot.triangle, 1), &c = corner(foot.triangle, 2);
+  const Vector3d ab = b - a, bc = c - b, ca = a - c;
+  const double area2 = ab.cross(ca).squaredNorm();
+  const auto height2 = [&](double share, const Vector3d& side) {
+    const double side2 = side.squaredNorm();
+    return side2 > 0 ? share * share * area2 / side2 : 0;
+  };
+  return {height2(foot.weights[2], ab), height2(foot.weights[0], bc), height2(foot.weights[1], ca)};
 }
 
 }  // namespace qmorph::space

@@ -80,7 +80,7 @@ class Background {
  private:
   void add_fans();
   void find_smooth();
-  double height2(const Foot& foot, int i) const;
+  std::array<double, 3> squared_heights(const Foot& foot) const;
   static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
 

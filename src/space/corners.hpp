@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace qmorph::space {
 
@@ -59,18 +60,20 @@ double scaled_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
   return *std::min_element(sines.begin(), sines.end());
 }
 
-/// Every corner turns so clearly the way that these normals do that others nearby would say the same, too.
+/// The same if every corner turns so clearly the way that these normals do that others nearby would say so, too.
 template <std::size_t N>
-bool is_clear(const Corners<N>& p, const CornerNormals<N>& normals) {
+std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
   constexpr double kClear = 0.5;  // cosine between a corner's cross product and the normals
   const double clear_of_whole = kClear * normals.whole.norm();
+  double least = 1;
   for (std::size_t i = 0; i < N; ++i) {
-    const Eigen::Vector3d cross = (p[(i + 1) % N] - p[i]).cross(p[(i + N - 1) % N] - p[i]);
+    const Eigen::Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i];
+    const Eigen::Vector3d cross = ahead.cross(behind);
     const double area = cross.norm();
-    if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area))
-      return false;
+    if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area)) return {};
+    least = std::min(least, area / std::sqrt(ahead.squaredNorm() * behind.squaredNorm()));
   }
-  return true;
+  return least;
 }
 
 /// Interior angles in degrees, from 0 to 360, of corners with these signed sines.

@@ -159,21 +159,22 @@ double MeshOnSurface::smallest_sine(Index f) const {
                                   : scaled_jacobian(corners<3>(face), normals<3>(f));
 }
 
-bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
+std::optional<double> MeshOnSurface::clear_sine(Index f) const {
   const Face& face = mesh_.faces[f];
   for (Index i = 0; i < chart::degree(face); ++i)
-    if (!whole_.is_smooth(mesh_.on[face[i]])) return false;
-  const auto is_above = [&](const auto& p, const auto& n) { return is_clear(p, n) && scaled_jacobian(p, n) > sine; };
-  return chart::degree(face) == 4 ? is_above(corners<4>(face), normals<4>(f))
-                                  : is_above(corners<3>(face), normals<3>(f));
+    if (!whole_.is_smooth(mesh_.on[face[i]])) return {};
+  return chart::degree(face) == 4 ? clear_jacobian(corners<4>(face), normals<4>(f))
+                                  : clear_jacobian(corners<3>(face), normals<3>(f));
+}
+
+bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
+  const std::optional<double> clear = clear_sine(f);
+  return clear && *clear > sine;
 }
 
 double MeshOnSurface::sure_sine(Index f) const {
-  const Face& face = mesh_.faces[f];
-  for (Index i = 0; i < chart::degree(face); ++i)
-    if (!whole_.is_smooth(mesh_.on[face[i]])) return exact_sine(f);
-  const auto sine = [&](const auto& p, const auto& n) { return is_clear(p, n) ? scaled_jacobian(p, n) : exact_sine(f); };
-  return chart::degree(face) == 4 ? sine(corners<4>(face), normals<4>(f)) : sine(corners<3>(face), normals<3>(f));
+  const std::optional<double> clear = clear_sine(f);
+  return clear ? *clear : exact_sine(f);
 }
 
 double MeshOnSurface::exact_sine(Index f) const {

@@ -2,6 +2,7 @@
 #pragma once
 /// A mesh on the triangles of a surface whose nodes move: what smoothing and repair in space look at.
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -96,6 +97,8 @@ class MeshOnSurface {
 
  private:
   void cut(const std::vector<std::pair<Index, Index>>& creases);
+  /// smallest_sine(), if looking closer is not needed.
+  std::optional<double> clear_sine(Index face) const;
   void find_places();
   Eigen::Vector3d centre(Index face) const;
   Eigen::Vector3d normal_of(Index face) const;

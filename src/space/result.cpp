@@ -65,7 +65,7 @@ template <std::size_t N>
 std::array<double, N> Result::sines(Index element, const Corners<N>& p, const std::array<Index, N>& nodes) const {
   if (is_smooth_at(element, nodes)) {
     const CornerNormals<N> rough = normals_at_nodes(element, nodes);
-    if (is_clear(p, rough)) return corner_sines(p, rough);
+    if (clear_jacobian(p, rough)) return corner_sines(p, rough);
   }
   return corner_sines(p, normals_.of(p, triangle_[element]));
 }

@@ -59,8 +59,8 @@ class Settling {
   /// Sends a node downhill, half as far as its neighbours have come besides: where all go the same way no shape
   /// suffers.
   void settle(Index v) {
-    constexpr double kGain = 0.5, kMost = 0.5;  // of an edge
-    constexpr double kPoor = 0.3;               // left to those who look closer
+    constexpr double kGain = 0.5, kMost = 0.5, kLeastWay = 0.02;  // edges
+    constexpr double kPoor = 0.3;                                 // left to those who look closer
     is_active_[v] = 0;
     Vector3d slope = Vector3d::Zero(), others = Vector3d::Zero();
     double edge = 0, count = 0, cost = 0, least = options_.good_quality;
@@ -81,24 +81,26 @@ class Settling {
     way -= way.dot(up) * up;
     const double length = way.norm(), most = kMost * edge;
     if (length > most) way *= most / length;
-    try_ways(v, way, cost, least);
+    try_ways(v, way, kLeastWay * edge, cost, least);
   }
 
-  /// All of the way, or less of it.
-  void try_ways(Index v, const Vector3d& way, double cost, double least) {
+  /// All of the way, or less of it. Steps that are shorter than `least_way` wake nobody.
+  void try_ways(Index v, const Vector3d& way, double least_way, double cost, double least) {
     const MeshOnSurface::Place before = mesh_.place(v);
     for (const double share : {1.0, 0.5, 0.25}) {
       const Vector3d tried = way_[v] + share * (way - way_[v]);
       mesh_.move(v, start_[v]);
       mesh_.move(v, mesh_.foot(v, start_[v].point + tried));
       if (!is_better(v, cost, least)) continue;
+      const bool is_far = (tried - way_[v]).norm() > least_way;
       way_[v] = tried;
       auto seat = tried_.begin();
       mesh_.for_sides_around(v, [&](Index first) {
         seats_[first / 4] = *seat++;
-        for (Index side = mesh_.next(first); side != first; side = mesh_.next(side)) is_active_[mesh_.node(side)] = 1;
+        if (is_far)
+          for (Index side = mesh_.next(first); side != first; side = mesh_.next(side)) is_active_[mesh_.node(side)] = 1;
       });
-      is_active_[v] = 1;
+      is_active_[v] = is_far;
       return;
     }
     mesh_.move(v, before);

@@ -49,6 +49,24 @@ TEST_CASE("divide: each part is flat, each face is in one, and cuts have two sid
   }
 }
 
+TEST_CASE("divide: large parts that are judged at a glance lie flat when they are laid out") {
+  Rng rng(8);
+  std::size_t glances = 0;
+  for (const Patch& patch : {sphere(0.035, rng), torus(1, 0.4, 0.03, rng), rolled(plate(60, 40), 0, rng)}) {
+    const Start start(patch);
+    const std::vector<bool> uncut(4 * start.mesh.faces.size(), false);
+    const Division division = divide(start.mesh, start.opposite, uncut, 60'000, true);
+    for (std::size_t p = 0; p < division.parts.size(); ++p) {
+      if (division.laid_out[p]) continue;
+      const LaidOut part(start.mesh, start.opposite, division.is_cut, division.parts[p]);
+      ++glances;
+      CHECK(part.chart.flattening().flipped == 0);
+      CHECK(part.chart.flattening().distortion <= 1.25);  // 1.2 of a few points
+    }
+  }
+  CHECK(glances > 3);
+}
+
 TEST_CASE("divide: what lies flat is not cut, whatever it looks like in space") {
   Rng rng(7);
   CHECK(divided(Start(rolled(plate(30, 10), 0, rng))).parts.size() == 1);

@@ -177,3 +177,37 @@ TEST_CASE("divide: regions that embedded curves cut off are even, each for itsel
       "Point(5) = {0.5, 0.3, 0, 0.15}; Point(6) = {1.2, 0.3, 0, 0.15}; Point(7) = {0.8, 0.8, 0, 0.15};\n"
       "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 5}; Line(8) = {1, 5}; Curve{5:8} In Surface{1};\n");
 }
+
+TEST_CASE("divide: a curve of no surface that happens to part one leaves both parts even") {
+  const Converted converted = convert(
+      "Point(1) = {0, 0, 0}; Point(2) = {0.2, 0, 0}; Point(3) = {0.2, 3.2, 0};\n"
+      "Point(4) = {0.2, 4.8, 0}; Point(5) = {0, 4.8, 0}; Point(6) = {0, 3.2, 0};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};\n"
+      "Line(7) = {3, 6}; Curve Loop(1) = {1:6}; Plane Surface(1) = {1}; Transfinite Curve {1, 4} = 3;\n"
+      "Transfinite Curve {7} = 2; Transfinite Curve {2, 6} = 9; Transfinite Curve {3, 5} = 5;\n");
+  CHECK(segments(converted.snapshot, 7) == 2);  // 19 and 11 sides otherwise
+}
+
+TEST_CASE("divide: where surfaces meet by threes in a curve, all of them are even") {
+  Rng rng(24);
+  for (int trial = 0; trial < 8; ++trial) {
+    std::string script =
+        "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1}; Box(2) = {1, 0, 0, 1, 1, 1};\n"
+        "BooleanFragments{ Volume{1:2}; Delete; }{}\n";
+    for (int point = 1; point <= 12; ++point)
+      script += fmt::format("MeshSize{{{}}} = {:.2f};\n", point, 0.15 + 0.35 * rng.uniform());
+    convert(script);
+  }
+}
+
+TEST_CASE("divide: circles that are as coarse as circles may be can have one segment more") {
+  const Converted converted = convert(
+      "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 0.1}; Rectangle(2) = {-1, -1, 0, 2, 2};\n"
+      "BooleanFragments{ Surface{1, 2}; Delete; }{}\nMeshSize{:} = 0.5;\n");
+  const adapter::ModelMesh& mesh = converted.snapshot.mesh;
+  const auto circle = std::find_if(mesh.entities.begin(), mesh.entities.end(), [](const adapter::EntityMesh& entity) {
+    return entity.dim == 1 && entity.element_count() > 4;
+  });
+  REQUIRE(circle != mesh.entities.end());
+  CHECK(circle->element_count() == 8);  // of Gmsh: 7
+}

@@ -104,6 +104,38 @@ TEST_CASE("refused: a node at no place") {
   CHECK(mentions(result.err, "surface 2: 1 triangle left as it was: node 28 at (10, nan, 0) is nowhere"));
 }
 
+TEST_CASE("refused: quads alone, with a node at no place or one node twice") {
+  Mixed mixed;
+  const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(1, 1, 0);
+  std::string message;
+  SUBCASE("at no place") {
+    mixed.elements.push_back(row<4>("3 2 0 2", {a, b, c, mixed.add(0, std::nan(""), 0)}));
+    message = "node 29 at (10, nan, 0) is nowhere: its coordinates are not finite numbers";
+  }
+  SUBCASE("at no place that can be computed with") {
+    mixed.elements.push_back(row<4>("3 2 0 2", {a, b, c, mixed.add(0, 1e160, 0)}));
+    message = "node 29 at (10, 1e+160, 0) is too far away to compute with";
+  }
+  SUBCASE("twice") {
+    mixed.elements.push_back(row<4>("3 2 0 2", {a, b, c, c}));
+    message = "uses node 28 at (11, 1, 0) twice";
+  }
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh", msh22(mixed.nodes, mixed.elements));
+  const std::vector<std::string> line{directory / "in.msh", "-o", directory / "out.msh"};
+  for (const char* option : {"", "--cleanup-only"}) {
+    CAPTURE(option);
+    std::vector<std::string> words = line;
+    if (*option) words.push_back(option);
+    const Result result = run_qmorph(words);
+    CAPTURE(result.err);
+    CHECK(result.status == 3);
+    CHECK(mentions(result.err, "surface 2: 1 quad left as it was: "));
+    CHECK(mentions(result.err, message));
+    CHECK(mentions(result.err, "qmorph: 1 of 2 surfaces left as they were: 2"));
+  }
+}
+
 TEST_CASE("refused: a surface that bounds tetrahedra") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, [] {

@@ -5,8 +5,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "parity/unknowns.hpp"
 #include "support/rng.hpp"
@@ -48,6 +50,29 @@ IntervalProblem grid_of_surfaces(Rng& rng, int columns, int rows) {
     for (int c = 0; c <= columns; ++c) add(c - 1, r, c, r);
   for (int r = 0; r <= rows; ++r)
     for (int c = 0; c < columns; ++c) add(c, r - 1, c, r);
+  return problem;
+}
+
+/// The faces and edges of a block of boxes: inside of it four surfaces share a curve.
+IntervalProblem block_of_boxes(Rng& rng, std::array<int, 3> size) {
+  IntervalProblem problem;
+  std::map<std::array<int, 4>, Index> curves;  // by the first end and the direction
+  const auto curve = [&](std::array<int, 3> from, int axis) {
+    const auto [at, is_new] = curves.try_emplace({from[0], from[1], from[2], axis}, Index(curves.size()));
+    if (is_new) problem.curves.push_back(random_wish(rng));
+    return at->second;
+  };
+  for (int normal = 0; normal < 3; ++normal)
+    for (int x = 0; x <= size[0]; ++x)
+      for (int y = 0; y <= size[1]; ++y)
+        for (int z = 0; z <= size[2]; ++z) {
+          const int a = (normal + 1) % 3, b = (normal + 2) % 3;
+          const std::array<int, 3> from{x, y, z};
+          if (from[std::size_t(a)] == size[std::size_t(a)] || from[std::size_t(b)] == size[std::size_t(b)]) continue;
+          std::array<int, 3> beyond_a = from, beyond_b = from;
+          ++beyond_a[std::size_t(a)], ++beyond_b[std::size_t(b)];
+          problem.surfaces.push_back({curve(from, a), curve(from, b), curve(beyond_b, a), curve(beyond_a, b)});
+        }
   return problem;
 }
 
@@ -116,6 +141,17 @@ TEST_CASE("intervals: in a thousand random models every surface gets an even bou
     const bool any_fixed =
         std::any_of(problem.curves.begin(), problem.curves.end(), [](const CurveWish& c) { return c.fixed; });
     if (!any_fixed) CHECK(plan.odd.empty());
+  }
+}
+
+TEST_CASE("intervals: surfaces that meet in space by three and four get even boundaries, too") {
+  Rng rng(11);
+  for (int trial = 0; trial < 200; ++trial) {
+    CAPTURE(trial);
+    const IntervalProblem problem = block_of_boxes(rng, {rng.range(1, 4), rng.range(1, 4), rng.range(1, 4)});
+    const IntervalPlan plan = plan_intervals(problem);
+    check_plan(problem, plan);
+    CHECK(plan.odd.empty());
   }
 }
 

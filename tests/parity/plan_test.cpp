@@ -52,9 +52,11 @@ Cost cost_of(const CostTable& costs, const std::vector<Index>& mate) {
 }
 
 std::vector<bool> parity_after(std::vector<bool> odd, const std::vector<Link>& links, const Plan& plan) {
-  for (Index i : plan.splits)
+  for (Index i : plan.splits) {
     for (Index r : {links[i].a, links[i].b})
       if (r != kOutside) odd[r] = !odd[r];
+    for (Index r : links[i].others) odd[r] = !odd[r];
+  }
   return odd;
 }
 
@@ -162,4 +164,38 @@ TEST_CASE("plan: as few splits as the best of all sets of links, on random graph
     CHECK(plan.odd_left.size() == count_odd(left));
     for (Index r : plan.odd_left) CHECK(left[r]);
   }
+}
+
+TEST_CASE("plan: edges that three regions share are split where they make all even, on random models") {
+  Rng rng(7);
+  int solved = 0, in_vain = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    CAPTURE(trial);
+    const Index regions = Index(rng.range(3, 8));
+    std::vector<bool> odd;
+    for (Index r = 0; r < regions; ++r) odd.push_back(rng.chance(0.5));
+    std::vector<Link> links;
+    for (int i = rng.range(1, 9); i > 0; --i) {
+      std::vector<Index> all;
+      for (Index r = 0; r < regions; ++r)
+        if (rng.chance(0.4)) all.push_back(r);
+      if (all.size() < 2) continue;
+      links.push_back({all[0], all[1], rng.uniform(), 1, {all.begin() + 2, all.end()}});
+    }
+    const Plan plan = plan_splits(odd, links);
+    const std::vector<bool> after = parity_after(odd, links, plan);
+    for (Index r = 0; r < regions; ++r)
+      CHECK(after[r] == (std::count(plan.odd_left.begin(), plan.odd_left.end(), r) == 1));
+    const bool can_be_even = fewest_by_trial(odd, links).first == 0;
+    CHECK((count_odd(after) == 0) == can_be_even);
+    (can_be_even ? solved : in_vain) += count_odd(odd) > 0;
+  }
+  CHECK(solved > 50);
+  CHECK(in_vain > 50);
+}
+
+TEST_CASE("plan: an edge that three regions share is not split where others are enough") {
+  const std::vector<Link> links = {{0, 1, 9, 1, {2}}, {0, 1, 1}, {1, 2, 1}};
+  CHECK(plan_splits({true, false, true}, links).splits == std::vector<Index>{1, 2});
+  CHECK(plan_splits({true, true, true}, links).splits == std::vector<Index>{0});
 }

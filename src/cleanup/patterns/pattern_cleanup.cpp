@@ -6,8 +6,8 @@
 #include <ranges>
 #include <utility>
 
-#include "cleanup/patterns/match.hpp"
 #include "cleanup/attempt.hpp"
+#include "cleanup/patterns/match.hpp"
 #include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
@@ -68,8 +68,8 @@ class Trial {
   bool attempt_at(Dart dart, std::string_view composition, bool mirrored, const std::vector<Index>& near,
                   const Accept& accept) {
     collect_score_nodes(near);
-    int gain = 0;
-    for (Index v : scored_) gain += score_.cost(v);
+    int cost = 0;
+    for (Index v : scored_) cost += score_.cost(v);
     const auto edit = [&](std::vector<Index>& nodes) {
       if (!run(mesh_, dart, composition, mirrored, nodes)) return false;
       for (Index v : nodes)
@@ -81,6 +81,7 @@ class Trial {
     const bool kept =
         attempt(mesh_, relaxing_, kRings, near, nodes_, edit, [&](const Worth& before, const Worth& after) {
           sort_unique(made_);
+          int gain = cost;
           for (const auto* some : {&scored_, &made_})
             for (Index v : *some)
               if (mesh_.is_live_vertex(v)) gain -= score_.cost(v);

@@ -27,6 +27,9 @@ namespace {
 /// In sides of an element: how far nodes may be from the triangles, by rounding and where a geometry arches over them.
 constexpr double kOnTriangles = 1e-6, kOnGeometry = 1;
 
+/// Where not even the quads that are there already may pass for good ones.
+bool is_broken(ErrorKind kind) { return kind == ErrorKind::not_finite || kind == ErrorKind::bad_element; }
+
 /// The quads of a surface may change.
 void free_quads(SurfaceMesh& surface) {
   surface.quads_may_go = true;
@@ -237,6 +240,7 @@ void Run::look_at(std::uint32_t entity, SurfaceReport& report) {
   try {
     surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
   } catch (const SurfaceError& error) {
+    if (task_ != Task::measure && is_broken(error.kind())) return leave(report, error);
     report.reason = error.what();
     report.error = error.details();
     return;  // there are no figures for it

@@ -148,6 +148,8 @@ std::optional<CurveModel> divide_as_wished(const std::vector<int>& surfaces) {
   bool understood = true;
   {
     const ScopedOption size("Mesh.MeshSizeFactor", get_option("Mesh.MeshSizeFactor") / kFiner);
+    // A small circle has a least number of segments, and would seem to have it at any size.
+    const ScopedOption circles("Mesh.MinimumCircleNodes", get_option("Mesh.MinimumCircleNodes") * kFiner);
     ::gmsh::model::mesh::generate(1);
     for (const auto& [dim, tag] : entities) {
       DividedCurve curve;

@@ -137,11 +137,13 @@ std::map<int, int> find_divided_further(const DivisionReport& report) {
 }
 
 bool has_odd_boundary(int surface) {
-  ::gmsh::vectorpair boundary;
-  ::gmsh::model::getBoundary({{2, surface}}, boundary, false, false);
-  int segments = 0;
-  for (const auto& [dim, curve] : boundary) segments += count_segments(curve);
-  return segments % 2 != 0;
+  constexpr int kTriangle = 2;
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  ::gmsh::model::mesh::getElements(types, tags, nodes, 2, surface);
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < types.size(); ++i) triangles += types[i] == kTriangle ? tags[i].size() : 0;
+  return triangles % 2 != 0;
 }
 
 void forget_division(const DivisionReport& report) {

@@ -38,7 +38,7 @@ DivisionReport divide_curves(const DivisionTask& task);
 /// divides some further.
 std::map<int, int> find_divided_further(const DivisionReport& report);
 
-/// By the line elements of its curves.
+/// 3 T + 4 Q = 2 E + B: with T triangles, Q quads and E inner edges, the number B of sides is as odd as T. Linear elements only.
 bool has_odd_boundary(int surface);
 
 /// Or Gmsh would keep to the numbers when it meshes the curves again. Those of extruded curves it keeps: it would

@@ -134,7 +134,6 @@ std::vector<std::vector<Index>> Images::groups() {
   return groups;
 }
 
-/// Leaves out what changes the parity of more than two regions.
 void make_link(const std::vector<Candidate>& candidates, const std::vector<Index>& group, RegionGraph& graph) {
   std::set<Index> changed;
   parity::Link link{parity::kOutside, parity::kOutside, candidates[group.front()].length, int(group.size())};
@@ -145,10 +144,11 @@ void make_link(const std::vector<Candidate>& candidates, const std::vector<Index
     link.length = std::min(link.length, candidates[i].length);
     edges.push_back(candidates[i].edge);
   }
-  if (changed.size() > 2) return;
-  if (!changed.empty()) link.a = *changed.begin();
-  if (changed.size() == 2) link.b = *changed.rbegin();
-  graph.links.push_back(link);
+  auto region = changed.begin();
+  if (region != changed.end()) link.a = *region++;
+  if (region != changed.end()) link.b = *region++;
+  link.others.assign(region, changed.end());
+  graph.links.push_back(std::move(link));
   graph.edges.push_back(std::move(edges));
 }
 
@@ -190,6 +190,13 @@ class FindingRegions {
            !fixed_.contains(s.low, s.high);
   }
 
+  /// In each of the surfaces that meet here.
+  static bool is_manifold(std::span<const SurfaceSide> edge) {
+    for (std::size_t k = 2; k < edge.size(); ++k)
+      if (edge[k].surface == edge[k - 2].surface) return false;
+    return true;
+  }
+
   Index region_of(const SurfaceSide& side) {
     Index& region = number_[joined_.root(side.triangle)];
     if (region == kNone) {
@@ -217,7 +224,7 @@ class FindingRegions {
   bool may_split(std::span<const SurfaceSide> edge, Candidate& candidate) const {
     const auto [a, b] = candidate.edge;
     const int order = edge[0].order;
-    bool may = edge.size() <= 2 && (use_.volume[a] == kNobody || use_.volume[b] == kNobody);
+    bool may = is_manifold(edge) && (use_.volume[a] == kNobody || use_.volume[b] == kNobody);
     for (const SurfaceSide& side : edge) may = may && side.triangle != kNone && side.order == order;
     const auto [from, to] = std::equal_range(lines_.begin(), lines_.end(), Line{candidate.edge, 0, 0},
                                              [](const Line& s, const Line& t) { return s.edge < t.edge; });

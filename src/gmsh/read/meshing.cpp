@@ -203,10 +203,23 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
   return generate(flags, nullptr, division);
 }
 
-/// Gmsh may have divided curves further while it meshed the surfaces.
+/// A curve of no surface, whose segments may happen to be edges in one: they stay, and part it.
+bool has_loose_curve() {
+  ::gmsh::vectorpair curves;
+  ::gmsh::model::getEntities(curves, 1);
+  return std::any_of(curves.begin(), curves.end(), [](const auto& curve) {
+    std::vector<int> surfaces, points;
+    ::gmsh::model::getAdjacencies(1, curve.second, surfaces, points);
+    return surfaces.empty() && has_elements(1, curve.second);
+  });
+}
+
+/// Where curves as they were planned have not made every region even: Gmsh may have divided them further while it meshed
+/// the surfaces, and the plan knows only what lies on a surface by its definition.
 EvenReport mend_parity(const MeshingTask& task, const DivisionReport& division, const std::vector<int>& keep_curves) {
   const std::vector<int> surfaces = surfaces_of(task);
-  if (std::none_of(surfaces.begin(), surfaces.end(), has_odd_boundary)) return {};
+  const bool as_planned = find_divided_further(division).empty() && !has_loose_curve();
+  if (as_planned && std::none_of(surfaces.begin(), surfaces.end(), has_odd_boundary)) return {};
   std::vector<int> keep = keep_curves;
   keep.insert(keep.end(), division.fixed.begin(), division.fixed.end());
   return session::make_even(surfaces, keep);
@@ -251,7 +264,7 @@ MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_
   meshed.warnings = log.warnings;
   const std::vector<std::string> bare = check_every_surface_has_elements(log);
   meshed.warnings.insert(meshed.warnings.end(), bare.begin(), bare.end());
-  if (meshed.division.understood) meshed.even = mend_parity(task, meshed.division, keep_curves);
+  meshed.even = mend_parity(task, meshed.division, keep_curves);
   return meshed;
 }
 

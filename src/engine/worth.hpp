@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// What a mesh of quads is worth, if several are to choose from.
+
+#include <algorithm>
+
+#include "kernel/mesh.hpp"
+
+namespace qmorph {
+
+struct Worth {
+  double least = 1;   ///< smallest scaled Jacobian of a quad
+  double mean = 0;    ///< of shapes
+  double growth = 0;  ///< quads over those that take the place of equilateral triangles with sides as long
+  /// Once the worst quad is good enough for every solver, it counts for little, and the others count. Many quads that
+  /// are smaller than asked for have good shapes easily, so growth counts against a result.
+  double sum() const {
+    constexpr double kLittle = 0.1, kFairGrowth = 1.25;
+    return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
+           2 * mean - std::max(0.0, growth - kFairGrowth);
+  }
+  bool is_poor() const { return least < kFine; }
+  static constexpr double kGoodEnough = 0.4, kFine = 0.7;
+};
+
+/// `triangles`: how many the region had.
+Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles);
+
+}  // namespace qmorph
