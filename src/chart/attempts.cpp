@@ -3,10 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "chart/irregular_nodes.hpp"
-#include "qmorph/error.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -61,15 +61,12 @@ RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, 
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {
     if (worth.irregular < kFewIrregular) break;
-    try {
-      RegionWork work = work_on_region(region, variant, allowed, task);
-      const Worth other(work.mesh, size);
-      if (worth.sum >= other.sum) continue;
-      best = std::move(work);
-      worth = other;
-    } catch (const SurfaceError&) {
-      // there is a result already
-    }
+    std::optional<RegionWork> work = try_region(region, variant, allowed, task);
+    if (!work) continue;
+    const Worth other(work->mesh, size);
+    if (worth.sum >= other.sum) continue;
+    best = std::move(*work);
+    worth = other;
   }
   return best;
 }

@@ -11,7 +11,8 @@
 namespace qmorph::chart {
 namespace {
 
-constexpr int kSweeps = 30, kDirections = 8;
+constexpr int kSweeps = 12;  // those that succeed take one to three, seldom nine
+constexpr int kDirections = 8;
 constexpr double kLeastSine = 0.02;
 /// With more than this share of the triangles turned over, plus a few, the fault is not local.
 constexpr double kShare = 0.02;

@@ -353,12 +353,21 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
       if (best.doubtful == 0 || size > kFew) return std::move(*best.work);
     }
   }
-  constexpr int kRefinings = 3;
+  // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads then.
+  constexpr std::size_t kNotMany = 2000;
+  const int refinings = size <= kFew ? 3 : size <= kNotMany && !best.work ? 1 : 0;
   Distrust nodes;
-  while (task == Task::convert && size <= kFew && nodes.refinings++ < kRefinings && !(best.work && best.doubtful == 0))
+  while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0))
     if (Worker worker(region, options, allowed, task, nodes); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
   throw *first;
+}
+
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+  const Distrust nothing;
+  Worker worker(region, options, allowed, task, nothing);
+  if (!worker.run() || worker.doubtful() > 0) return {};
+  return worker.result();
 }
 
 }  // namespace qmorph::chart

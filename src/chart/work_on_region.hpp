@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "chart/curved_region.hpp"
@@ -20,7 +21,11 @@ struct RegionWork {
 };
 
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
-/// and mends in space, for about as much work as is allowed (engine/allowance.hpp). \throws SurfaceError
+/// and mends in space, for about as much work as is allowed (engine/allowance.hpp). What fails, or is doubtful, is tried again in other ways.
+/// \throws SurfaceError
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
+
+/// The same, tried once: nothing if that fails or is doubtful.
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
 
 }  // namespace qmorph::chart

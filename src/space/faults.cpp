@@ -66,6 +66,14 @@ std::optional<Defect> look_at(const Result& result, Index element, const std::ar
   return {};
 }
 
+/// Joined triangles of which one lies back over the other, or has no normal. Where a thin tube has few triangles around
+/// they turn by a right angle and more, and elements that are not turned over can be found all the same.
+bool are_folded(const Background& surface, Index t, Index other) {
+  constexpr double kFold = -0.8;  // cosine between the normals: less than 37 degrees are left between the triangles
+  const Vector3d &a = surface.normal(t), &b = surface.normal(other);
+  return a.isZero() || b.isZero() || a.dot(b) < kFold;
+}
+
 }  // namespace
 
 template <std::size_t N>
@@ -81,9 +89,12 @@ bool is_folded_under(const Background& surface, const SurfaceNormals& normals, c
   };
   add(centre);
   for (const Vector3d& corner : p) add(corner + 0.25 * (centre - corner));
-  Vector3d mean = Vector3d::Zero();
-  for (Index t : near) mean += surface.normal(t);
-  return std::any_of(near.begin(), near.end(), [&](Index t) { return !(surface.normal(t).dot(mean) > 0); });
+  return std::any_of(near.begin(), near.end(), [&](Index t) {
+    for (int i = 0; i < 3; ++i)
+      if (const Index other = surface.neighbour(t, i); near.contains(other) && are_folded(surface, t, other))
+        return true;
+    return false;
+  });
 }
 
 template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<3>&, Index);

@@ -10,8 +10,8 @@
 
 namespace qmorph::space {
 
-/// The surface turns by more than a right angle against its mean normal within the element: there the input is folded,
-/// or has triangles that are bad themselves, and an element may have no way to be good.
+/// The surface lies back over itself within the element: there the input is folded, or has triangles that are bad
+/// themselves, and an element may have no way to be good. That it turns far is no fold.
 template <std::size_t N>
 bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint);
 

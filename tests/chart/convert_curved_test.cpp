@@ -12,6 +12,7 @@
 #include "qmorph/convert.hpp"
 #include "qmorph/error.hpp"
 #include "qmorph/quality.hpp"
+#include "space/surfaces.hpp"
 #include "support/invariants.hpp"
 #include "support/on_surface.hpp"
 
@@ -191,6 +192,21 @@ TEST_CASE("curved: coarse surfaces of few triangles") {
     CAPTURE(patch.triangles.size());
     const QuadMesh mesh = convert(patch).mesh;
     check(patch, mesh);
+  }
+}
+
+TEST_CASE("curved: where a thin tube turns sharply from triangle to triangle no quad is turned over") {
+  constexpr Index kRows = 10;
+  for (const std::uint64_t seed : {14, 15, 16}) {
+    const auto place = [&](double u, double v) {
+      const double angle = 2 * std::numbers::pi * u;
+      return Vector3d(std::cos(angle), std::sin(angle), 1.2 * kRows * v);
+    };
+    const Patch patch = triangulated({.across = 4, .along = kRows, .jitter = 0.28, .closed_across = true}, place, seed);
+    const QuadMesh mesh = convert(patch).mesh;
+    QualityAccumulator quality;
+    quality.add(patch, mesh);
+    CHECK(quality.result().inverted == 0);
   }
 }
 
