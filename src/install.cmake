@@ -23,11 +23,14 @@ if(QMORPH_COMMAND)
     COMPONENT command)
   # The manual page is what --help says, in the form of man.
   find_program(HELP2MAN help2man)
-  mark_as_advanced(HELP2MAN)
-  if(HELP2MAN)
-    set(manual ${PROJECT_BINARY_DIR}/qmorph.1)
+  find_program(GZIP gzip)
+  mark_as_advanced(HELP2MAN GZIP)
+  if(HELP2MAN AND GZIP)
+    set(text ${PROJECT_BINARY_DIR}/qmorph.1)
+    set(manual ${text}.gz)
     add_custom_command(OUTPUT ${manual}
-      COMMAND ${HELP2MAN} --no-info --name "${PROJECT_DESCRIPTION}" --output ${manual} $<TARGET_FILE:qmorph_command>
+      COMMAND ${HELP2MAN} --no-info --name "${PROJECT_DESCRIPTION}" --output ${text} $<TARGET_FILE:qmorph_command>
+      COMMAND ${GZIP} --best --no-name --force --keep ${text}
       DEPENDS qmorph_command VERBATIM)
     add_custom_target(qmorph_manual ALL DEPENDS ${manual})
     install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
@@ -77,6 +80,11 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 # What the libraries and programs are linked with, our own apart: dpkg cannot know those before they are installed.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src)
+# What other packages that are linked with the libraries depend on, and that the loader's cache is renewed.
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libqmorph${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Shared libraries.")
@@ -101,9 +109,17 @@ if(QMORPH_PYTHON)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module.")
   set(CPACK_COMPONENT_PYTHON_DEPENDS library)
 endif()
+# Debian has the text of the licence once for all packages.
+file(WRITE ${PROJECT_BINARY_DIR}/copyright "qmorph: ${PROJECT_DESCRIPTION}
+Copyright: ${CPACK_PACKAGE_CONTACT}
+License: GPL-2.0-or-later
+
+This program is free software; you can redistribute it and/or modify it under the terms of the GNU General Public License as
+published by the Free Software Foundation; either version 2 of the License, or (at your option) any later version. It comes
+without any warranty. On Debian systems the text of the license is in /usr/share/common-licenses/GPL-2.
+")
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   string(TOUPPER ${component} upper)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} RENAME copyright
-    COMPONENT ${component})
+  install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} COMPONENT ${component})
 endforeach()
 include(CPack)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The engine's door.
+/// The entry point of the engine.
 
 #include <optional>
 #include <vector>

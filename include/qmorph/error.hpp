@@ -27,7 +27,7 @@ enum class ErrorKind {
   no_area,        ///< its triangles have no area in sum: it is closed, folded or degenerate
   not_manifold,   ///< more than two elements meet at an edge, or they are not oriented alike
   overlap,        ///< it lies over itself
-  bad_element,    ///< an element is turned over, has no area, uses a node twice, or one that there is not
+  bad_element,    ///< an element is turned over, has no area, uses a node twice, or one that does not exist
   element_type,   ///< elements that are neither triangles nor quads, or of several orders
   volume,         ///< elements of a volume stand on it
   periodic,       ///< the surface that it is periodic with stays as it is, or is not its image

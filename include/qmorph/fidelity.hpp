@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// How near what a curved surface was made into is to the triangles that it came from.
+/// How close the quads of a curved surface are to the triangles that they were made from.
 
 #include <Eigen/Core>
 #include <vector>
@@ -30,7 +30,7 @@ class QMORPH_API FidelityAccumulator {
  public:
   /// Adds a surface, if it is curved. Cost: linear.
   void add(const Patch& before, const QuadMesh& after);
-  /// Adds a surface, be it flat. `source` of the mesh may be all kNone; then the cost is n log n.
+  /// Adds a surface, flat or curved. `source` of the mesh may be all kNone; then the cost is n log n.
   void add_any(const Patch& before, const QuadMesh& after);
   void add(const FidelityAccumulator& other);
   Fidelity result() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The door for programs that already run the Gmsh API: `qmorph::gmsh::recombine()` in the place of
+/// The entry point for programs that already run the Gmsh API: `qmorph::gmsh::recombine()` in the place of
 /// `gmsh::model::mesh::recombine()`. Mentions no Gmsh type; link `qmorph::gmsh`.
 ///
 /// `qmorph::gmsh` is Gmsh's own namespace by another name, and our functions can be seen from there. With a namespace
@@ -32,14 +32,14 @@ enum class SurfaceOutcome {
   left,           ///< it could not be converted and is as it was; `reason` says why
 };
 
-/// Where the nodes lie that a curved surface of a geometry has got, or one whose triangles are curved themselves, those
-/// between corners too. Other surfaces have none: the triangles are all there is.
+/// Where the new nodes of a curved surface lie, if it has a geometry or its triangles are curved themselves; nodes
+/// between corners count, too. Other surfaces have nothing but their triangles.
 struct OnGeometry {
   std::size_t nodes = 0;  ///< that are new or have moved, on it
   /// That stay on the triangles: an element would be spoiled, or there is no way to the geometry.
   std::size_t left = 0;
   std::size_t moved_sides =
-      0;  ///< sides of elements of a higher order that are bent otherwise, or not at all: one would be folded
+      0;  ///< sides of higher-order elements that are bent less, or not at all, since an element would be folded
 
   std::size_t all() const { return nodes + left; }
   bool any() const { return all() + moved_sides > 0; }

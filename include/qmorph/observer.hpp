@@ -58,6 +58,8 @@ struct FrontStart {
   FlatFrame frame;
   double corner_angle = 0;                  ///< an end of a front edge is a corner below it, in radians
   std::span<const Eigen::Vector2d> points;  ///< by node; NaN where there is none
+  /// Of a curved surface: where the nodes are in the model, which no frame says. Empty for planar ones.
+  std::span<const Eigen::Vector3d> places;
   /// By number: corners counter-clockwise; of a triangle the last is kNone, where there is no face the first.
   std::span<const std::array<Index, 4>> faces;
   std::span<const FrontEdge> edges;
@@ -121,8 +123,10 @@ class QMORPH_API Observer {
  public:
   virtual ~Observer() = default;
 
-  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large one, or once more with
-  /// other constants of a small one. Who is returned sees its steps; null: nobody does. Fronts run side by side: may be
+  /// A front is about to start: of a region, or of what layers leave of it, of a part of a large region, or of a small
+  /// region once more with other constants. The observer that is returned sees its steps; null: none does. Fronts run
+  /// side by
+  /// side: may be
   /// called from several threads at a time.
   virtual std::unique_ptr<FrontObserver> front_starts(const FrontStart&) { return nullptr; }
 

@@ -28,7 +28,7 @@ struct FrontOptions {
   double transition_ratio = 2.5;
   /// A side edge may be this far from its ideal direction. [Owen99]
   double side_edge_angle = std::numbers::pi / 6;
-  /// A swapped side edge may be this times the sum of its two front edges. [Owen99]
+  /// A side edge made by a swap may be as long as this times the sum of its two front edges. [Owen99]
   double side_edge_length = 0.8660254037844386;
 };
 
@@ -109,8 +109,8 @@ struct Options {
   FrontOptions front;
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
-  /// Triangles of boundary layers and structured strips stay the quads that they are halves of; the front has the
-  /// others.
+  /// Pairs of triangles in boundary layers and structured strips become the quads that they are halves of; the front
+  /// works on the rest.
   bool layers = true;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries
   /// together take no more triangles than this, or than six times its own where a region of up to twice as many has a
@@ -123,14 +123,13 @@ struct Options {
   /// On a curved surface, edges whose triangles meet at a larger angle (radians, between their normals) are kept. 180
   /// degrees: none.
   double crease_angle = 2 * std::numbers::pi / 9;
-  /// Look at what every operation has made, and in the front at the whole mesh: slow, for tests.
+  /// Check what every operation has made, and in the front the whole mesh: slow, for tests.
   bool check_each_step = false;
   /// Threads at most; 0: as many as the machine has. The result does not depend on it.
   int threads = 0;
-  /// Called now and then; may be empty.
+  /// Called from time to time; may be empty.
   ProgressCallback progress;
-  /// Watches how the result comes about (observer.hpp); may be null. It has to live as long as the call that it
-  /// watches.
+  /// Watches how the result comes about (observer.hpp); may be null. It must outlive the call that it watches.
   Observer* observer = nullptr;
 };
 

@@ -108,8 +108,7 @@ Lifted lift(const kernel::Mesh& mesh, const Piece& piece, const Chart& chart, co
     order.push_back(v);
   }
   for (std::size_t k = 0; k < order.size(); ++k) {
-    Index h = mesh.out(order[k]);
-    do {
+    for (Index h : mesh.around(order[k])) {
       const Index v = mesh.target(h);
       if (half[v] == kNone) {
         const Chart::Place place = chart.locate(mesh.point(v), half[order[k]]);
@@ -119,8 +118,7 @@ Lifted lift(const kernel::Mesh& mesh, const Piece& piece, const Chart& chart, co
         lifted.on[v] = foot.triangle;
         order.push_back(v);
       }
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(order[k]));
+    }
   }
   return lifted;
 }

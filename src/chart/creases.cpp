@@ -33,7 +33,7 @@ constexpr double kLeastBeyond = 0.4;
 constexpr Index kMostOfFan = 24;
 
 /// By how much the surface turns on around `axis`, from the triangle of `side` to those at its corner across. Infinite
-/// where the surface ends there: nobody knows how it goes on.
+/// where the surface ends there, and how it would go on is unknown.
 double turn_beyond(const space::Background& surface, Index side, const Vector3d& axis) {
   const Index from = side / 3, corner = 3 * from + (side + 2) % 3;
   const Vector3d start = surface.normal(from) - surface.normal(from).dot(axis) * axis;

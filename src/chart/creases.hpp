@@ -7,7 +7,7 @@
 namespace qmorph::chart {
 
 /// Edges along which two triangles of a surface meet at more than `angle` (radians, between their normals), lower node
-/// first, sorted. Triangles without height have no say.
+/// first, sorted. Triangles without height do not count.
 std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle);
 
 }  // namespace qmorph::chart

@@ -9,7 +9,7 @@
 namespace qmorph::chart {
 
 struct CurvedRegion {
-  /// As cut_into_regions() makes it; its plane points say nothing.
+  /// As cut_into_regions() makes it; its points in the plane mean nothing.
   Region region;
   std::vector<Eigen::Vector3d> points;
   std::vector<space::Background::Edge> barriers;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "chart/topology.hpp"
+#include "geometry/cut_cost.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -14,16 +15,12 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kShifts[] = {0, -0.08, 0.08, -0.16, 0.16};  ///< of the share
-/// Each end of the curve costs this share of the extent, and so much more the flatter it meets the outline: a wedge is
-/// no place for quads.
-constexpr double kEndCost = 0.02, kFlatCost = 0.5;
-constexpr double kSquare = 0.9;  ///< a sine from which on an end is no wedge
 /// A plane that has less than this of the wanted share behind it does not cut.
 constexpr double kLeastShare = 0.3;
 /// Costs are estimated from so many faces.
 constexpr std::size_t kSamples = 1500;
 
-struct Plane3 {
+struct CuttingPlane {
   Vector3d normal = Vector3d::UnitX();
   double offset = 0;
   double distance(const Vector3d& p) const { return normal.dot(p) - offset; }
@@ -65,8 +62,8 @@ class Chooser {
     }
   }
 
-  Plane3 best() const {
-    Plane3 best;
+  CuttingPlane best() const {
+    CuttingPlane best;
     double least = std::numeric_limits<double>::infinity();
     std::vector<double> offsets(samples_.size());
     for (const Vector3d& normal : directions()) {
@@ -74,7 +71,7 @@ class Chooser {
       std::sort(offsets.begin(), offsets.end());
       for (double shift : kShifts) {
         const double rank = std::clamp(share_ + shift, 0.0, 1.0) * double(offsets.size() - 1);
-        const Plane3 plane{normal, offsets[std::size_t(rank)]};
+        const CuttingPlane plane{normal, offsets[std::size_t(rank)]};
         const auto behind = std::lower_bound(offsets.begin(), offsets.end(), plane.offset) - offsets.begin();
         if (double(behind) < kLeastShare * share_ * double(offsets.size())) continue;  // most lie in the plane
         const double cost = cost_of(plane, offsets.back() - offsets.front());
@@ -102,7 +99,7 @@ class Chooser {
     return result;
   }
 
-  double cost_of(const Plane3& plane, double extent) const {
+  double cost_of(const CuttingPlane& plane, double extent) const {
     double cost = 0;
     for (const Sample& s : samples_) {
       Vector3d ends[2];
@@ -118,7 +115,7 @@ class Chooser {
       if ((plane.distance(side.from) < 0) == (plane.distance(side.to) < 0)) continue;
       const Vector3d along = plane.normal.cross(side.normal).normalized();
       const double sine = along.cross((side.to - side.from).normalized()).norm();
-      cost += extent * (kEndCost + kFlatCost * std::max(0.0, kSquare - sine));
+      cost += extent * cost_of_cut_end(sine);
     }
     return cost;
   }
@@ -161,7 +158,7 @@ void even_out(const Piece& piece, std::vector<char>& beyond) {
 }  // namespace
 
 std::vector<char> sides_of_best_plane(const Piece& piece, double share) {
-  const Plane3 plane = Chooser(piece, share).best();
+  const CuttingPlane plane = Chooser(piece, share).best();
   std::vector<char> beyond(piece.faces.size());
   for (Index f = 0; f < piece.faces.size(); ++f) beyond[f] = plane.distance(middle_of(piece, f)) >= 0;
   even_out(piece, beyond);

@@ -59,7 +59,8 @@ class Dividing {
     return flattening.flipped == 0 && flattening.distortion <= most_distortion(part.piece.faces.size());
   }
 
-  /// A disc that is curved so much in sum that nobody has to try: half a sphere lacks 2 pi. Tips may be cut open.
+  /// A disc whose total curvature is so large that there is no point in trying: half a sphere has 2 pi. Tips may be cut
+  /// open.
   static bool is_round(const Piece& piece) {
     constexpr double kMostInSum = 5, kTip = 0.5;
     if (piece.faces.size() < kLarge) return false;

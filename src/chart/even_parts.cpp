@@ -155,7 +155,7 @@ class Evening {
   std::vector<Index> part_;
   std::vector<char> changed_;
   std::vector<Edge> gone_, more_creases_, more_interface_;
-  std::map<Index, Index> moved_;  ///< sides that have another number now
+  std::map<Index, Index> moved_;  ///< sides that were renumbered
 };
 
 }  // namespace

@@ -19,9 +19,10 @@ using Matrix = Eigen::SparseMatrix<double>;
 constexpr double kLeastHeight = 1e-3;
 /// Rounds end when one lowers the energy by less than this share of it.
 constexpr double kLeastGain = 0.02;
-/// With less energy than this a triangle, a thousandth of lengths, the surface unrolls, and no round is worth its time.
+/// With less energy than this per triangle, which is a thousandth of its lengths, the surface unrolls and a round is
+/// not worth the time.
 constexpr double kFlatEnough = 1e-6;
-/// Points go so many times as far as a round takes them: fewer rounds do.
+/// Over-relaxation: points move this many times as far as a round takes them, so that fewer rounds are needed.
 constexpr double kOvershoot = 1.7;
 /// A triangle with a smaller sine is as bad as one that is turned over.
 constexpr double kLeastSine = 1e-4;

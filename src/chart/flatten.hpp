@@ -24,7 +24,7 @@ inline constexpr int kAllRounds = 30, kFewRounds = 4;
 
 /// As rigid as possible [Liu08]: unfolded from triangle to triangle first, then rotations and points in turn. Each
 /// piece of the surface has a boundary; it may have holes. A cone, a tube that is cut open, a plate are flattened
-/// exactly; for what cannot be the result says how far off it is. Cost: one sparse factorisation, some solves: near
+/// exactly; elsewhere the result says how far off it is. Cost: one sparse factorisation, some solves: near
 /// linear.
 Flattening flatten(const space::Background& surface, std::size_t points, int rounds = kAllRounds);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Interfaces between parts are boundaries for a while, and lines of the surface never.
+/// Interfaces between parts act as boundaries while the parts are worked on; no line of the surface has to lie there.
 
 #include "chart/divide.hpp"
 

@@ -4,7 +4,7 @@
 
 namespace qmorph::chart {
 
-/// A mesh with so many irregular nodes a face has few.
+/// With fewer irregular nodes per face than this, a mesh has few of them.
 inline constexpr double kFewIrregular = 0.01;
 
 /// By node: free, on no boundary and no crease, and with other than four faces.

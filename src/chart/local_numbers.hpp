@@ -7,7 +7,7 @@
 
 namespace qmorph::chart {
 
-/// Numbers 0, 1, ... for some of many rows, found by row: in memory and time that go with how many are some.
+/// Numbers 0, 1, ... for some of many rows, found by row, in memory and time that grow with how many are numbered.
 class LocalNumbers {
  public:
   /// `all`: how many rows there are.

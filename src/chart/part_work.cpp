@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/part_work.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/convert_region.hpp"
 #include "engine/improve_region.hpp"
 
 namespace qmorph::chart {
 namespace {
 
-/// The plane of a chart, in which messages say where a point is in space.
-Plane plane_of(const Chart& chart) {
+/// The plane of a chart, in which messages say where a point is in space. Who watches asks for all nodes, most of which
+/// are the piece's own.
+Plane plane_of(const LaidOut& part, bool is_watched) {
+  const Piece& piece = part.piece;
+  const Chart& chart = part.chart;
+  const auto before = [](const Vec2& a, const Vec2& b) { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); };
+  std::vector<std::pair<Vec2, Index>> known;
+  for (Index v = 0; is_watched && v < piece.points.size(); ++v) known.emplace_back(chart.flat()[v], v);
+  std::sort(known.begin(), known.end(), [&](const auto& a, const auto& b) { return before(a.first, b.first); });
   Plane plane;
-  plane.curved = [&chart](const Vec2& p) { return chart.to_space(chart.nearest_of_all(p)); };
+  plane.curved = [&piece, &chart, before, known = std::move(known)](const Vec2& p) {
+    const auto found = std::lower_bound(known.begin(), known.end(), p,
+                                        [&](const auto& a, const Vec2& b) { return before(a.first, b); });
+    if (found != known.end() && found->first == p) return piece.points[found->second];
+    return chart.to_space(chart.nearest_of_all(p));
+  };
   return plane;
 }
 
@@ -19,7 +34,7 @@ Plane plane_of(const Chart& chart) {
 kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
                           ConversionReport& report, Record& record) {
   const auto& [piece, chart] = part;
-  const Plane plane = plane_of(chart);
+  const Plane plane = plane_of(part, options.observer != nullptr);
   const Region region = piece.region(chart.flat());
   if (task == Task::convert) return qmorph::convert_region(region, plane, options, allowed, report, record);
   kernel::Mesh mesh = piece.mesh(chart.flat());

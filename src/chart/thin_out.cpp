@@ -75,11 +75,7 @@ bool merge_in(kernel::Mesh& mesh, Index from, Index into) {
   mesh.begin();
   mesh.collapse(h);
   std::vector<Index> around;
-  Index e = mesh.out(into);
-  do {
-    around.push_back(mesh.target(e));
-    e = mesh.rotate_ccw(e);
-  } while (e != mesh.out(into));
+  for (Index e : mesh.around(into)) around.push_back(mesh.target(e));
   constexpr int kPasses = 3;
   for (int pass = 0; pass < kPasses; ++pass)
     for (Index v : around) smoothing::relax_node(mesh, v);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSweeps = 30;
 constexpr double kLeastSine = 0.02;
-/// More than this share of the triangles, and some, is no local matter.
+/// With more than this share of the triangles turned over, plus a few, the fault is not local.
 constexpr double kShare = 0.02;
 constexpr std::size_t kSome = 8;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What makes the mesh better in a window of a surface. Nothing is returned if it was better before.
+/// Improves the mesh in a window of a surface. Nothing is returned if it was better before.
 
 #include <optional>
 
@@ -14,7 +14,7 @@ namespace qmorph::chart {
 std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
                                      const space::Background& background);
 
-/// Irregular nodes cancel that lie so far from each other that looking for them everywhere would be dear.
+/// Cancels irregular nodes that lie so far apart that looking for them everywhere would cost too much.
 std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
                                          const space::Background& background);
 

@@ -63,7 +63,7 @@ class Taking {
         if (g == kNone) continue;
         if (in_strip_[g]) in_strip_[g] = 0, faces.push_back(g), steps.push_back(steps[k] + 1);
         if (!size_.apart || !in_window_[g] || steps[k] >= size_.margin) continue;
-        give_back(faces, 0);  // there will be room for all of it when the other window is done
+        give_back(faces, 0);  // when the other window is done, there will be room for the whole window
         return nullptr;
       }
     while (true) {

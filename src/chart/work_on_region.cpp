@@ -116,7 +116,7 @@ class Worker {
   }
 
   void divide_region() {
-    // Between quads that are there already an interface is as good as it can be.
+    // Between existing quads an interface cannot be improved.
     const bool straightens = task_ == Task::convert && !distrust_.interfaces;
     divide_region(straightens);
     if (straightens && std::any_of(division_.laid_out.begin(), division_.laid_out.end(), is_turned_over)) {

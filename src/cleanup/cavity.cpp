@@ -9,7 +9,7 @@ namespace {
 
 void next_round(std::uint32_t& round, std::vector<std::uint32_t>& marks) {
   if (++round != 0) return;
-  marks.assign(marks.size(), 0);  // those of four thousand million rounds ago would look new
+  marks.assign(marks.size(), 0);  // marks of 2^32 rounds ago would look new
   round = 1;
 }
 
@@ -35,11 +35,8 @@ bool Cavity::add(Index f) {
 }
 
 bool Cavity::add_around(Index v) {
-  Index h = mesh_.out(v);
-  do {
+  for (Index h : mesh_.around(v))
     if (mesh_.face(h) != kNone && !add(mesh_.face(h))) return false;
-    h = mesh_.rotate_ccw(h);
-  } while (h != mesh_.out(v));
   return true;
 }
 
@@ -91,53 +88,71 @@ void Cavity::for_new_sides(const Visit& visit) const {
   }
 }
 
-/// Finds outline and inner nodes, from those before the last faces were added. False if the quads are no disc or an
-/// inner node is not free.
-bool Cavity::trace() {
+/// The outline consists of sides of quads inside with no such quad behind them; they are sides of the previous outline
+/// or of the quads that were added since. False if they are not one loop that passes each node once.
+bool Cavity::trace_outline() {
   std::swap(outline_, old_outline_);
   outline_.clear();
-  outer_.clear();
-  std::size_t border = 0;
+  std::size_t count = 0;
   Index first = kNone;
   const auto take_side = [&](Index h) {
     if (contains(mesh_.face(Mesh::twin(h)))) return;
     leaving_[mesh_.origin(h)] = first = h;
-    ++border;
+    ++count;
   };
   for (Index h : old_outline_) take_side(h);
   for_new_sides(take_side);
   if (first == kNone) return false;
   Index h = first;
   do {
-    if (outline_.size() == border) return false;
+    if (outline_.size() == count) return false;
     outline_.push_back(h);
     h = leaving_[mesh_.target(h)];
   } while (h != first);
-  if (outline_.size() != border) return false;  // touches itself, or has a hole
+  return outline_.size() == count;  // fewer: it touches itself, or has a hole
+}
 
-  for (std::size_t k = 0; k < border; ++k) {
-    Index e = Mesh::twin(outline_[k == 0 ? border - 1 : k - 1]);
+void Cavity::count_outer_edges() {
+  outer_.clear();
+  for (std::size_t k = 0; k < outline_.size(); ++k) {
+    const Index before = outline_[k == 0 ? outline_.size() - 1 : k - 1];
     int outside = 1;
-    for (; e != outline_[k]; e = mesh_.rotate_ccw(e)) ++outside;
+    for (Index e = Mesh::twin(before); e != outline_[k]; e = mesh_.rotate_ccw(e)) ++outside;
     outer_.push_back(outside);
   }
-  // Nodes that are not on the outline any more, or never were.
+}
+
+/// Nodes that have left the outline, or never were on it. False if one is not free.
+bool Cavity::take_inner_nodes() {
   next_round(trace_, node_mark_);
-  for (Index e : outline_) node_mark_[mesh_.origin(e)] = trace_;
-  bool free = true;
-  const auto take_node = [&](Index e) {
-    const Index v = mesh_.origin(e);
+  for (Index h : outline_) node_mark_[mesh_.origin(h)] = trace_;
+  bool are_free = true;
+  const auto take_node = [&](Index h) {
+    const Index v = mesh_.origin(h);
     if (node_mark_[v] == trace_) return;
     node_mark_[v] = trace_;
-    free = free && mesh_.is_free(v);
+    are_free = are_free && mesh_.is_free(v);
     inner_.push_back(v);
   };
-  for (Index e : old_outline_) take_node(e);
+  for (Index h : old_outline_) take_node(h);
   for_new_sides(take_node);
-  if (!free) return false;
+  return are_free;
+}
+
+/// Euler's formula, V - E + F = 1. Two sides of quads make an edge, but on the outline one does.
+bool Cavity::is_disc() const {
+  const std::size_t nodes = inner_.size() + outline_.size(), edges = (4 * faces_.size() + outline_.size()) / 2;
+  return nodes + faces_.size() == edges + 1;
+}
+
+/// Finds outline and inner nodes, from those before the last faces were added. False if the quads are no disc or an
+/// inner node is not free.
+bool Cavity::trace() {
+  if (!trace_outline()) return false;
+  count_outer_edges();
+  if (!take_inner_nodes()) return false;
   traced_ = faces_.size();
-  // Euler's formula of a disc: V - E + F = 1.
-  return inner_.size() + border + faces_.size() == (4 * faces_.size() + border) / 2 + 1;
+  return is_disc();
 }
 
 }  // namespace qmorph::cleanup

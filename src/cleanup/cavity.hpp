@@ -34,6 +34,10 @@ class Cavity {
   bool add_around(Index v);
   bool make_convex();
   bool trace();
+  bool trace_outline();
+  void count_outer_edges();
+  bool take_inner_nodes();
+  bool is_disc() const;
   void begin();
   /// Calls visit(h) for the half-edges of the faces that were added since the outline was found.
   template <class Visit>

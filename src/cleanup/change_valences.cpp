@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "cleanup/node_queue.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {
@@ -50,11 +50,7 @@ class ChangingValences {
       for (Index u : nodes_)
         if (mesh_.is_live_vertex(u)) {
           enqueue(u);
-          Index h = mesh_.out(u);
-          do {
-            enqueue(mesh_.target(h));
-            h = mesh_.rotate_ccw(h);
-          } while (h != mesh_.out(u));
+          for (Index h : mesh_.around(u)) enqueue(mesh_.target(h));
         }
       return;
     }

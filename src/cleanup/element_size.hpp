@@ -12,7 +12,7 @@ class ElementSize {
  public:
   explicit ElementSize(const kernel::Mesh& mesh);
 
-  /// Quads of the wanted size that have the area of these quads.
+  /// How many quads of the wanted size have the area of these quads.
   double quads_wanted(const std::vector<Index>& quads) const;
   /// Sizes of the nodes differ by no more than this factor, the largest and smallest few aside.
   bool is_uniform(double factor) const;

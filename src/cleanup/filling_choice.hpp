@@ -17,11 +17,11 @@ struct FillingChoice {
       0;  ///< how far the angles of the outline are from those that the filling asks for, squared, in half turns
 };
 
-/// A first look that needs no angles: false if every filling costs more than `most_cost`, which is so five times out of
-/// six.
+/// A first look that needs no angles: false if every filling costs more than `most_cost`, which is the case five times
+/// out of six.
 bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity, double most_cost);
 
-/// Quads of a filling over those wanted: one that makes the elements coarser or finer than this is none.
+/// Quads of a filling over quads wanted: a filling that makes the elements coarser or finer than this is not taken.
 struct FillingSize {
   double fewest = 0.75, most = 1.7;
 };

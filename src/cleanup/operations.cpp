@@ -2,6 +2,7 @@
 #include "cleanup/operations.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "topology/edits.hpp"
 
@@ -29,7 +30,7 @@ int close_gain(const Mesh& mesh, const Score& score, Index h) {
 
 void add_closes(const Mesh& mesh, const Score& score, Index h, int least, std::vector<Candidate>& out) {
   // Both diagonals of the face; what is free vanishes into the other end.
-  for (Index start : {h, mesh.next(h)}) {
+  for (Index start : std::array<Index, 2>{h, mesh.next(h)}) {
     const Index opposite = mesh.next(mesh.next(start));
     const Index from = mesh.is_free(mesh.origin(start)) ? start : opposite;
     if (!mesh.is_free(mesh.origin(from))) continue;
@@ -57,14 +58,8 @@ void add_turns(const Mesh& mesh, const Score& score, Index h, int least, std::ve
 void add_opens(const Mesh& mesh, const Score& score, Index v, int least, std::vector<Candidate>& out) {
   const int n = int(mesh.valence(v));
   if (n < 5) return;
-  // On the boundary the first and the last spoke are the boundary edges, the inside between them.
-  const Index first = mesh.is_boundary(v) ? mesh.rotate_ccw(mesh.out(v)) : mesh.out(v);
   std::vector<Index> spokes;
-  Index h = first;
-  do {
-    spokes.push_back(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != first);
+  for (Index h : mesh.around_inside(v)) spokes.push_back(h);
   for (int i = 0; i < n; ++i)
     for (int between = 1; between <= n - 3; ++between) {
       const int j = (i + between + 1) % n;
@@ -135,7 +130,7 @@ bool remove_star(Mesh& mesh, Index h) {
 }
 
 void collect_around(const Mesh& mesh, Index h, std::vector<Index>& nodes) {
-  for (Index e : {h, Mesh::twin(h)})
+  for (Index e : Mesh::halves_of(h))
     if (mesh.face(e) != kNone)
       for (Index v : topology::nodes_of(mesh, mesh.face(e))) nodes.push_back(v);
 }
@@ -144,16 +139,14 @@ void collect_around(const Mesh& mesh, Index h, std::vector<Index>& nodes) {
 
 std::vector<Candidate> candidates_around(const Mesh& mesh, const Score& score, Index v, int least) {
   std::vector<Candidate> found;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     add_turns(mesh, score, h, least, found);
     if (mesh.is_quad(mesh.face(h))) {
       add_closes(mesh, score, h, least, found);
       add_turns(mesh, score, mesh.next(h), least, found);
       add_turns(mesh, score, mesh.next(mesh.next(h)), least, found);
     }
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   add_opens(mesh, score, v, least, found);
   add_star_removals(mesh, score, v, least, found);
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });

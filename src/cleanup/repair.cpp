@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 #include "smoothing/untangle.hpp"
 
 namespace qmorph::cleanup {
@@ -71,7 +71,7 @@ class Repair {
     return found;
   }
 
-  /// An element that is not valid is mended at any cost.
+  /// An invalid element is mended at any cost.
   bool may_try(Index f) const { return !budget_.is_spent() || (mesh_.is_live_face(f) && !mesh_.is_valid_face(f)); }
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
@@ -98,15 +98,13 @@ class Repair {
     }
   }
 
-  /// Where something has changed, what failed may succeed.
+  /// Where something has changed, what failed before may succeed.
   void forgive_around(Index v) {
     if (!mesh_.is_live_vertex(v)) return;
-    Index h = mesh_.out(v);
-    do {
+    for (Index h : mesh_.around(v)) {
       const Index f = mesh_.face(h);
       if (f != kNone && f < failed_.size()) failed_[f] = false;
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
+    }
   }
 
   bool improve(Index f) {

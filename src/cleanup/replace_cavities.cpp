@@ -8,7 +8,7 @@
 #include "cleanup/element_size.hpp"
 #include "cleanup/filling_choice.hpp"
 #include "cleanup/node_queue.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {

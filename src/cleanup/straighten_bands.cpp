@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cleanup/band_plan.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 namespace qmorph::cleanup {
 namespace {
@@ -71,17 +71,14 @@ class BandFinder {
     piece.faces = {mesh_.face(Mesh::twin(rung))};
     for (std::size_t i = 0; i < piece.faces.size(); ++i) {
       if (is_seen(piece.faces[i]) || !mesh_.is_quad(piece.faces[i])) return false;
-      const Index start = mesh_.half_edge(piece.faces[i]);
-      Index h = start;
-      do {
+      for (Index h : mesh_.sides_of(piece.faces[i])) {
         const Index beyond = mesh_.face(Mesh::twin(h));
         if (beyond != kNone && !is_rung(h) &&
             std::find(piece.faces.begin(), piece.faces.end(), beyond) == piece.faces.end()) {
           if (piece.faces.size() == kMostFaces) return false;
           piece.faces.push_back(beyond);
         }
-        h = mesh_.next(h);
-      } while (h != start);
+      }
     }
     // Along the outline: lower rail, exit, upper rail back to the rung.
     Index h = after(Mesh::twin(rung), piece.faces);

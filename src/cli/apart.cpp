@@ -27,7 +27,7 @@
 namespace qmorph::cli {
 namespace {
 
-/// Memory that a child shares.
+/// Memory shared with a child.
 class SharedSlate {
  public:
   SharedSlate() {

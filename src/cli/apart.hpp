@@ -9,8 +9,8 @@ namespace qmorph::cli {
 
 /// Runs the command in a child of this process, which waits. Where the child dies, because Gmsh crashes on a file or a
 /// geometry, that is an exit status and one line; where somebody ends this process by INT, TERM, HUP or QUIT, the child
-/// ends, too. No temporary file is left in either case. What libraries say on the standard streams is held back until
-/// it is known what became of it.
+/// ends, too. No temporary file is left in either case. What libraries print on the standard streams is held back until
+/// the outcome is known.
 /// \pre there is one thread
 /// \return the exit status; does not return where a signal ends it
 int run_apart(const std::vector<std::string>& arguments);

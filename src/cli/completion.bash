@@ -8,6 +8,7 @@ _qmorph() {
     --elements) choices='CPS CPE CAX S M3D CPSR CPER CAXR SR M3DR' ;;
     --stage) choices='input front elimination smoothing cleanup final' ;;
     --colour) choices='sj eta thesis size none' ;;
+    --from) choices='x y z -x -y -z' ;;
     --smoothing) choices='shape_energy thesis' ;;
     *) [[ $word == -* ]] && choices=$("$1" --help 2>/dev/null | grep -oE '(^|[[:space:]])--?[a-zA-Z0-9][a-zA-Z0-9_-]*') ;;
   esac

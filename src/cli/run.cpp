@@ -26,7 +26,7 @@
 namespace qmorph::cli {
 namespace {
 
-/// Standard input and output have names as files for as long as it takes.
+/// Standard input and output get names as files meanwhile.
 int run_with_streams(Request request, const std::vector<std::string>& arguments, std::ostream& out, ErrorStream& err,
                      const Process& process) {
   std::unique_ptr<adapter::ScratchFile> input;
@@ -65,7 +65,7 @@ int run_request(const std::vector<std::string>& arguments, std::ostream& out, Er
   if (request.version) answer(fmt::format("qmorph {}\n", kVersion), out);
   if (request.help || request.version) return all_converted;
   const int status = run_with_streams(request, arguments, out, err, process);
-  // Where it went wrong there is a line that says it, and nobody wants more.
+  // Where something went wrong, one line of ours says so, and more would only be in the way.
   // Gmsh's window has a log of its own, and what its toolkit says is about nothing that the user has done.
   if (process.slate)
     process.slate->shows_foreign_words = request.verbosity >= 2 && status <= converted_in_part && !request.gui;

@@ -81,9 +81,7 @@ class Search {
       queue.pop();
       if (cost != cost_[f]) continue;
       if (f != start && mesh_.is_triangle(f) && skip-- == 0) path = trace(start, f);
-      const Index first = mesh_.half_edge(f);
-      Index h = first;
-      do {
+      for (Index h : mesh_.sides_of(f)) {
         const Index beyond = mesh_.face(Mesh::twin(h));
         if (beyond != kNone && beyond != start) {
           const unsigned there = cost + 1 + penalty_[beyond];
@@ -94,8 +92,7 @@ class Search {
             queue.push({there, beyond});
           }
         }
-        h = mesh_.next(h);
-      } while (h != first);
+      }
     }
     for (Index f : reached) came_by_[f] = kNone, cost_[f] = 0;
     mesh_.add_work(reached.size());
@@ -223,13 +220,13 @@ bool try_path(Mesh& mesh, SmoothingOptions smoothing, const std::vector<Index>& 
   return done;
 }
 
-/// Passes triangle f to a near partner at one go. Little room and little effort come first.
+/// Passes triangle f to a partner nearby in one go, at first with little room and little effort.
 bool pass_at_once(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget, Search& search, Index f,
                   std::span<const Effort> efforts) {
   bool done = false;
   for (const Effort& effort : efforts) {
     for (int i = 0; i < effort.chains && !done && !budget.is_spent(); ++i) {
-      // By turns the nearest partner by another way, and another partner.
+      // In turn the nearest partner along another path, and another partner.
       const std::vector<Index> path = search.path_to_triangle(f, i / 2);
       if (path.empty() || path.size() > kLongestChain) break;
       done = try_path(mesh, smoothing, path, path.size(), effort);
@@ -263,7 +260,7 @@ bool walk(Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& b
       if (!done) f = mesh.face(path[1]);
       if (!done && !mesh.is_triangle(f)) break;
     } else {
-      // No way round to a partner next door.
+      // A partner next door is not reached by a detour.
       if (path.size() == 1 || ++failures > kMostFailures) break;
       path.push_back(Mesh::twin(path.back()));
       search.avoid(path);

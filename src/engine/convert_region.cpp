@@ -42,7 +42,7 @@ struct Front {
   std::uint64_t fingerprint;  ///< of what it has made
 };
 
-/// What an attempt costs in a region of no size.
+/// What an attempt costs however small the region is.
 constexpr std::size_t kWorkPerAttempt = 200;
 /// Of a triangle that is added where a fan is graded: the front's, above all.
 constexpr std::size_t kWorkToGrade = 150;

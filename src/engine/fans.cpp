@@ -26,12 +26,7 @@ enum class Spoke { stays, is_split, vanishes };
 /// Edges from v outwards, counter-clockwise, from one boundary edge to the other if v is on the boundary.
 std::vector<Index> spokes_of(const Mesh& mesh, Index v) {
   std::vector<Index> spokes;
-  const Index first = mesh.is_boundary(v) ? mesh.rotate_ccw(mesh.out(v)) : mesh.out(v);
-  Index h = first;
-  do {
-    spokes.push_back(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != first);
+  for (Index h : mesh.around_inside(v)) spokes.push_back(h);
   return spokes;
 }
 

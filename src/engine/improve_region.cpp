@@ -64,7 +64,7 @@ std::vector<Index> changed_nodes(const kernel::Mesh& before, const kernel::Mesh&
   return nodes;
 }
 
-/// Changes the mesh no more than it takes for the triangles to go, and where elements are poor.
+/// Changes the mesh only as far as it takes for the triangles to go, and where elements are poor.
 kernel::Mesh pair_triangles_only(const kernel::Mesh& start, const SmoothingOptions& smoothing, bool mends_all) {
   kernel::Mesh mesh = start;
   elimination::eliminate_triangles(mesh, smoothing);
@@ -76,7 +76,7 @@ kernel::Mesh pair_triangles_only(const kernel::Mesh& start, const SmoothingOptio
   return mesh;
 }
 
-/// All stages, on triangles alone: what quads leave no room for may be possible without them.
+/// All stages, with every quad cut into triangles first: that may allow what the quads leave no room for.
 kernel::Mesh forget_quads(const ImproveStart& start, const Plane& plane, Pipeline& pipeline) {
   kernel::Mesh triangles(start.region.points, start.region.triangles, start.region.open);
   for (Index v : start.region.fixed) triangles.set_fixed(v);

@@ -74,7 +74,7 @@ std::vector<std::vector<Index>> find_bad_sets(const Mesh& mesh) {
   return sets;
 }
 
-/// Puts each free node to the middle of its neighbours, a few times over: no solution, but a start that is not far off.
+/// Moves each free node to the middle of its neighbours, a few times over: not a solution, but a good start.
 void spread(Mesh& mesh, const std::vector<Index>& nodes) {
   constexpr int kPasses = 20;
   for (int pass = 0; pass < kPasses; ++pass)
@@ -82,12 +82,10 @@ void spread(Mesh& mesh, const std::vector<Index>& nodes) {
       if (!mesh.is_free(v)) continue;
       Vec2 sum = Vec2::Zero();
       int count = 0;
-      Index h = mesh.out(v);
-      do {
+      for (Index h : mesh.around(v)) {
         sum += mesh.point(mesh.target(h));
         ++count;
-        h = mesh.rotate_ccw(h);
-      } while (h != mesh.out(v));
+      }
       mesh.set_point(v, sum / count);
     }
 }
@@ -204,7 +202,7 @@ void mend_quads(Mesh& mesh, const SmoothingOptions& smoothing, const Plane& plan
   const Index faces = mesh.face_slots();
   for (Index f = 0; f < faces; ++f)
     if (mesh.is_quad(f) && is_bad(mesh, f)) cut(mesh, f);
-  untangle_bad_sets(mesh, smoothing);  // triangles are more easily content
+  untangle_bad_sets(mesh, smoothing);  // triangles are satisfied more easily
   for (Index f = 0; f < mesh.face_slots(); ++f)
     if (is_bad(mesh, f) && (mesh.is_quad(f) || mesh.smallest_sine(f) < -kDegenerateSine))
       throw SurfaceError(

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Where the number of a name stands.
+/// Where the number of that name is stored.
 using Field = std::variant<double*, int*, bool*, std::size_t*>;
 
 struct Name {
   std::string_view name;
   double least, most;
   Field (*field)(Options&);
-  double unit = 1;  ///< of what callers see, in what is stored
+  double unit = 1;  ///< stored value = unit * what callers see
 };
 
 constexpr std::array kNames = {
@@ -62,6 +62,12 @@ std::string number(double value) {
   return text.str();
 }
 
+UsageError no_such_option(std::string_view name) {
+  std::string all;
+  for (const std::string& known : option_names()) all += (all.empty() ? "" : ", ") + known;
+  return UsageError("there is no option '" + std::string(name) + "'; there are " + all);
+}
+
 }  // namespace
 
 void set_option(Options& options, std::string_view name, double value) {
@@ -73,7 +79,7 @@ void set_option(Options& options, std::string_view name, double value) {
     std::visit([&](auto* field) { store(value * row.unit, *field); }, row.field(options));
     return;
   }
-  throw UsageError("there is no option '" + std::string(name) + "'");
+  throw no_such_option(name);
 }
 
 double get_option(const Options& options, std::string_view name) {
@@ -81,7 +87,7 @@ double get_option(const Options& options, std::string_view name) {
   for (const Name& row : kNames)
     if (row.name == name)
       return std::visit([&](auto* field) { return static_cast<double>(*field) / row.unit; }, row.field(copy));
-  throw UsageError("there is no option '" + std::string(name) + "'");
+  throw no_such_option(name);
 }
 
 std::vector<std::string> option_names() {

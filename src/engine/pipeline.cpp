@@ -27,8 +27,8 @@ constexpr bool kChecksAlways = false;
 
 using Clock = std::chrono::steady_clock;
 
-/// How much of the work that it may cost a region has spent at most when these are done; what one leaves is for those
-/// after it.
+/// The share of its allowed work that a region may have spent when each of these is done; what one stage leaves is
+/// there for the next.
 constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
                  kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
 
@@ -66,6 +66,7 @@ void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Deci
   settings.observer = options_.observer;
   settings.decisions = decisions;
   settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
+  if (options_.observer) settings.lift = plane.curved;
   if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
   report_.front_quads += count_faces(mesh, 4);
   report_.leftover_triangles += count_faces(mesh, 3);

@@ -20,8 +20,8 @@ namespace qmorph {
 
 class Pipeline {
  public:
-  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it. What makes
-  /// the mesh better ends when all together has cost as much work as is allowed (allowance.hpp).
+  /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it.
+  /// Improvement ends when all stages together have cost as much work as is allowed (allowance.hpp).
   Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start, double allowed);
 
   /// Triangles to quads, as far as the front comes. `plane` is for the observer; `decisions`, if not null, is told what
@@ -33,6 +33,7 @@ class Pipeline {
   /// finish() is clean() and polish(). In between, parts that were cleaned side by side may be joined; then irregular
   /// nodes near their interfaces cancel.
   void clean(kernel::Mesh& mesh, const cleanup::CavityLimits& limits = {});
+  /// After clean() within limits.
   void clean_further(kernel::Mesh& mesh);
   void clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface);
   void polish(kernel::Mesh& mesh);
@@ -57,7 +58,7 @@ class Pipeline {
 
 std::size_t count_faces(const kernel::Mesh& mesh, Index degree);
 
-/// What contradicts invariants I4 and I5; nothing if nothing does. The stages keep them step by step; this is the last
+/// What contradicts invariants I4 and I5; empty if nothing does. The stages keep them step by step; this is the last
 /// word.
 std::optional<SurfaceError> find_fault(const kernel::Mesh& mesh, const Region& region, const Plane& plane);
 

@@ -99,7 +99,7 @@ class Sides {
     return many;
   }
 
-  /// Of two nodes that with fewer corners first: chains are short, then, even where fans meet.
+  /// Of two nodes the one with fewer corners first, so that chains are short even where fans meet.
   std::pair<Index, Index> in_order(Index a, Index b) const {
     const bool is_a = corners_[a] != corners_[b] ? corners_[a] < corners_[b] : a < b;
     return is_a ? std::pair(a, b) : std::pair(b, a);
@@ -187,7 +187,7 @@ std::vector<Index> number_regions(const Sides& sides, Index triangles, std::vect
   return region;
 }
 
-/// On a million triangles in random order that halves the time of a conversion.
+/// With a million triangles in random order this halves the time of a conversion.
 std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& plane_points) {
   std::vector<Vec2> middles;
   middles.reserve(patch.triangles.size());

@@ -4,8 +4,8 @@
 
 namespace qmorph {
 
-/// Where triangles are stretched, all of them about as much and the same way, the plane with axes in which they are
-/// not: quads that are square there have the sizes that the triangles have along and across. Else the plane as it is.
+/// Where all triangles are stretched by about as much in the same direction, the plane with axes in which they are not
+/// stretched: quads that are square there have the triangles' sizes along and across. Otherwise the plane as it is.
 Plane unstretched(const Plane& plane, const Patch& patch);
 
 }  // namespace qmorph

@@ -5,9 +5,9 @@
 namespace qmorph::front {
 namespace {
 
-/// More swaps than this for each crossed edge mean that the segment cannot be had.
+/// If it takes more swaps than this for each crossed edge, the segment cannot be recovered.
 constexpr std::size_t kSwapsPerEdge = 6;
-/// A top edge that crosses more triangles than this is no top edge.
+/// A top edge must not cross more triangles than this.
 constexpr std::size_t kMostCrossings = 64;
 
 struct Crossings {

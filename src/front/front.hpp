@@ -45,10 +45,9 @@ class Front {
   /// Calls visit(incoming, outgoing) for the front edges on both sides of each wedge of triangles at v.
   template <class Visit>
   void for_wedges_at(Index v, const Visit& visit) const {
-    const Index start = mesh_.out(v);
-    Index h = start, outgoing = kNone, first_incoming = kNone;
-    bool was_triangle = mesh_.is_triangle(mesh_.face(Mesh::twin(h)));
-    do {
+    Index outgoing = kNone, first_incoming = kNone;
+    bool was_triangle = mesh_.is_triangle(mesh_.face(Mesh::twin(mesh_.out(v))));
+    for (Index h : mesh_.around(v)) {
       const bool is_triangle = mesh_.is_triangle(mesh_.face(h));
       if (is_triangle && !was_triangle) {
         outgoing = h;
@@ -59,8 +58,7 @@ class Front {
           visit(Mesh::twin(h), outgoing);
       }
       was_triangle = is_triangle;
-      h = mesh_.rotate_ccw(h);
-    } while (h != start);
+    }
     if (first_incoming != kNone) visit(first_incoming, outgoing);
   }
   /// The front edge that follows (precedes) h through the triangles ahead. O(valence).
@@ -78,7 +76,7 @@ class Front {
   double angle_left(Index h) const { return angle_between(prev(h), h); }
   double angle_right(Index h) const { return angle_between(h, next(h)); }
   double angle_between(Index incoming, Index outgoing) const;
-  /// angle_between() is below `limit`. Mostly it is far above, which takes no arc tangent.
+  /// Whether angle_between() is below `limit`. Usually it is far above, and then no arc tangent is needed.
   bool is_angle_below(Index incoming, Index outgoing, double limit) const;
   Base look_at(Index h) const;
   State state(Index h) const { return look_at(h).state; }
@@ -101,8 +99,8 @@ class Front {
   bool was_forced() const { return popped_forced_; }
 
  private:
-  /// What decides between front edges, the lower the sooner: level, then state, then length, in one number. Lengths of
-  /// one class are equal here: neighbours come one after another then, which is good for rows and for caches. Never 0.
+  /// The order of front edges, lowest first: level, then state, then length, in one number. Lengths of one class count
+  /// as equal, so that neighbours come one after another, which is good for rows and for caches. Never 0.
   using Key = std::uint32_t;
   static Key key_of(unsigned level, unsigned priority, double length);
 

@@ -15,13 +15,14 @@ constexpr double kStrongTransition = 20;
 /// A move must leave the worst corner around above this sine, unless it was worse before.
 constexpr double kWorstSine = 0.05;
 constexpr int kHalvings = 3;
-/// A shorter move, relative to the edges here, does not bring the front into another order.
+/// A shorter move, relative to the edges here, does not change the order of the front.
 constexpr double kVisibleMove = 0.02;
-/// A shorter one does not ask the neighbours to follow. With 0.02 as well the front takes 7 % longer, and no figure is
-/// better; with 0.08 there are more irregular nodes.
+/// After a shorter one the neighbours do not follow. With 0.02 the front takes 7 % longer and no figure is better; with
+/// 0.08 there are more irregular nodes.
 constexpr double kFollowedMove = 0.04;
-/// The height of a row is a mean of what the front asks for and of the length of the input's edges here, which has this
-/// weight: so the row keeps to the input's grading. Chosen by us on graded meshes: 0, 0.5, 0.75 gave 8.2, 6.9, 6.0 %
+/// The height of a row is a weighted mean of the height that the front asks for and the length of the input's edges
+/// here, whose weight this is: that way rows follow the input's grading. Chosen by us on graded meshes: 0, 0.5, 0.75
+/// gave 8.2, 6.9, 6.0 %
 /// irregular nodes on one with embedded points, and sizes nearer to the input's.
 constexpr double kSizeShare = 0.75;
 
@@ -40,11 +41,10 @@ Surrounding look_around(Step& step, Index v) {
   const Mesh& mesh = step.mesh;
   Surrounding s;
   step.spokes.clear();
-  const Index start = mesh.out(v);
-  Index h = start, face_before = mesh.face(Mesh::twin(h));  // on the right of h; v is inside
+  const Index face_before = mesh.face(Mesh::twin(mesh.out(v)));  // on its right; v is inside
   bool was_triangle = mesh.is_triangle(face_before);
   bool was_quad = mesh.is_quad(face_before);
-  do {
+  for (Index h : mesh.around(v)) {
     const Index f = mesh.face(h), end = mesh.target(h);
     const bool is_triangle = mesh.is_triangle(f), is_quad = mesh.is_quad(f);
     step.spokes.push_back({mesh.point(end), is_quad ? mesh.point(mesh.target(mesh.next(h))) : Vec2(0, 0), is_quad});
@@ -53,8 +53,7 @@ Surrounding look_around(Step& step, Index v) {
     if (!is_triangle && was_triangle) s.incoming = Mesh::twin(h), ++s.front_edges;
     if (is_quad && was_quad && s.behind == kNone) s.behind = end;
     was_triangle = is_triangle, was_quad = is_quad;
-    h = mesh.rotate_ccw(h);
-  } while (h != start);
+  }
   s.spokes = step.spokes;
   return s;
 }
@@ -94,13 +93,11 @@ double ideal_distance(const Mesh& mesh, const Surrounding& s) {
   const Index v = mesh.origin(s.outgoing);
   double sum = 0;
   int edges = 0;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     const bool is_behind = mesh.target(h) == s.behind;
     const bool is_ahead = mesh.is_triangle(mesh.face(h)) && mesh.is_triangle(mesh.face(Mesh::twin(h)));
     if (ratio > kStrongTransition || is_behind || is_ahead) sum += mesh.length(h), ++edges;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return edges ? sum / edges : 0.5 * (l1 + l2);
 }
 
@@ -218,11 +215,7 @@ void smooth_around(Step& step, Index face) {
   for (std::size_t i = 0; i < corners; ++i) {
     const Index v = nodes[i];
     if (!smooth_node(step, v)) continue;
-    Index e = mesh.out(v);
-    do {
-      note(mesh.target(e));
-      e = mesh.rotate_ccw(e);
-    } while (e != mesh.out(v));
+    for (Index e : mesh.around(v)) note(mesh.target(e));
   }
   for (std::size_t i = corners; i < nodes.size(); ++i) smooth_node(step, nodes[i]);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A set of indices that is emptied in no time: for small sets, many times over.
+/// A set of indices that is emptied in constant time: for small sets that are filled again and again.
 
 #include <vector>
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kStepsPerTriangle = 6;
 /// A front edge longer than this times the edges of the input ahead is split.
 constexpr double kTooLong = 2.2;
-/// Base edges that were set aside are tried again this often.
+/// How often base edges that were set aside are tried again.
 constexpr int kMostRounds = 8;
 
 class Morph {
@@ -34,8 +34,8 @@ class Morph {
   }
 
   /// Before run().
-  void watch(Observer& observer, const FlatFrame& frame) {
-    reporter_.emplace(mesh_, front_, states_, options_.corner_angle, observer, frame);
+  void watch(const MorphSettings& settings) {
+    reporter_.emplace(mesh_, front_, states_, options_.corner_angle, settings);
     if (!reporter_->is_watched()) reporter_.reset();
   }
 
@@ -151,11 +151,8 @@ class Morph {
   void join(Index a, Index b) {
     if (!mesh_.is_live_vertex(a) || !mesh_.is_live_vertex(b)) return;
     Index loop = kNone;
-    Index h = mesh_.out(a);
-    do {
+    for (Index h : mesh_.around(a))
       if (front_.contains(h)) loop = h;
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(a));
     colours_.join(a, b, loop);
   }
 
@@ -240,15 +237,12 @@ class Morph {
 
   bool has_many_quads(Index v) const {
     int quads = 0;
-    Index h = mesh_.out(v);
-    do {
-      quads += mesh_.is_quad(mesh_.face(h));
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
+    for (Index h : mesh_.around(v)) quads += mesh_.is_quad(mesh_.face(h));
     return quads >= 5;
   }
 
-  /// Quads that should share the angle at a node of the front; the side edge stands off the base edge by one of them.
+  /// How many quads should share the angle at a node of the front; the side edge is one of their angles away from the
+  /// base edge.
   static double quads_in(double angle) { return std::max(2.0, std::round(angle / (0.5 * std::numbers::pi))); }
 
   bool make_quad(const Base& at) {
@@ -331,7 +325,7 @@ class Morph {
 
 std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options, const MorphSettings& settings) {
   Morph morph(mesh, options, settings.check_each_step, settings.decisions);
-  if (settings.observer) morph.watch(*settings.observer, settings.frame);
+  if (settings.observer) morph.watch(settings);
   return morph.run(settings.progress);
 }
 

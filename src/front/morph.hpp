@@ -17,7 +17,9 @@ struct MorphSettings {
   std::function<void(double)> progress{};  ///< called now and then with the share of triangles done; may be empty
   Observer* observer = nullptr;            ///< is asked who wants to see the steps; may be null
   FlatFrame frame{};                       ///< for the observer: where the mesh lies in the model
-  Decisions* decisions = nullptr;          ///< is told what the constants have decided; may be null
+  /// The same for a chart of a curved surface; may be empty.
+  std::function<Eigen::Vector3d(const Eigen::Vector2d&)> lift{};
+  Decisions* decisions = nullptr;  ///< is told what the constants have decided; may be null
 };
 
 /// Turns triangles into quads from the boundary inwards. Every element of the mesh is valid before and after;

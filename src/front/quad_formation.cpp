@@ -16,9 +16,7 @@ Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triang
   step.marked.clear();
   step.marked.insert(inside[0]);
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    const Index start = mesh.half_edge(inside[i]);
-    Index h = start;
-    do {
+    for (Index h : mesh.sides_of(inside[i])) {
       const Index beyond = mesh.face(Mesh::twin(h));
       if (!on_ring(h)) {
         if (!mesh.is_triangle(beyond)) return kNone;  // a hole, a quad, a constraint
@@ -29,8 +27,7 @@ Index form_face(Step& step, std::span<const Index> ring, std::size_t most_triang
         const Index v = mesh.origin(h);
         if (mesh.is_fixed(v) && !is_ring_node(v)) return kNone;
       }
-      h = mesh.next(h);
-    } while (h != start);
+    }
   }
   for (Index r : ring)  // the ring must really enclose what was found
     if (!mesh.is_triangle(mesh.face(r)) || !step.marked.contains(mesh.face(r))) return kNone;

@@ -7,38 +7,29 @@
 namespace qmorph::front {
 namespace {
 
-/// More triangles than this between two front edges are no gap to be sewn.
+/// With more triangles than this between two front edges there is no gap to be sewn.
 constexpr std::size_t kMostTrianglesInGap = 24;
 /// With fewer quads around it the node between the edges would be irregular: 2 a doublet, 1 a vanished quad.
 constexpr int kFewestQuads = 3;
 
 int quads_around(const Mesh& mesh, Index v) {
   int quads = 0;
-  Index h = mesh.out(v);
-  do {
-    quads += mesh.is_quad(mesh.face(h));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  for (Index h : mesh.around(v)) quads += mesh.is_quad(mesh.face(h));
   return quads;
 }
 
 /// Gives every front edge at v the level of the front that it continues.
 void inherit_level(Step& step, Index v, unsigned level) {
   const Mesh& mesh = step.mesh;
-  Index h = mesh.out(v);
-  do {
-    for (Index e : {h, Mesh::twin(h)})
+  for (Index h : mesh.around(v)) {
+    for (Index e : Mesh::halves_of(h))
       if (step.front.contains(e)) step.front.set_level(e, level);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
 }
 
 Index some_quad_around(const Mesh& mesh, Index v) {
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v))
     if (mesh.is_quad(mesh.face(h))) return mesh.face(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
   return kNone;
 }
 
@@ -54,7 +45,8 @@ bool seam(Step& step, Index incoming, Index outgoing) {
 
   const Index chord = recover_edge(step, incoming, n);  // p -> n, the gap on its right
   if (chord == kNone) return false;
-  if (form_face(step, std::array{outgoing, Mesh::twin(chord), incoming}, kMostTrianglesInGap) == kNone) return false;
+  if (form_face(step, std::array<Index, 3>{outgoing, Mesh::twin(chord), incoming}, kMostTrianglesInGap) == kNone)
+    return false;
   const Index gone = free_p ? chord : Mesh::twin(chord);  // starts at the node that vanishes
   const Index kept = mesh.target(gone);
   if (!mesh.can_collapse(gone)) return false;

@@ -12,7 +12,7 @@ Index split_triangles(Step& step, Index h, const Vec2& p) {
   const Index m = mesh.split_edge(h, p);
   step.colours.forget(m);
   step.size.set(m, size);
-  for (Index side : {h, Mesh::twin(h)}) {
+  for (Index side : Mesh::halves_of(h)) {
     // After the split, `side` ends (or starts) at m in a face of four sides: cut from m to the corner opposite.
     const Index from_m = mesh.origin(side) == m ? side : mesh.next(side);
     const Index f = mesh.face(from_m);
@@ -55,7 +55,8 @@ Fan look_around(const Step& step, const Corner& corner, const Taken& taken) {
   return fan;
 }
 
-/// A side edge that is there may be so far off its ideal direction; one that is to be made may be as far as the limit.
+/// How far an existing edge may be off the ideal direction to serve as a side edge; one that has to be made may be off
+/// by as much as the limit.
 bool is_near(const Step& step, double off, bool is_there) {
   const double most = step.options.side_edge_angle;
   const bool is_near = off < most || (off == most && !is_there);
@@ -95,7 +96,7 @@ Index swap_for_side_edge(Step& step, const Corner& corner, const Taken& taken, I
   return Mesh::twin(o);
 }
 
-/// An edge that would close a loop of odd length must not: it ends half-way, at a new node.
+/// An edge must not close a loop of odd length: it ends half-way, at a new node.
 Index without_odd_loop(Step& step, Index side) {
   const Index node = step.mesh.origin(side), far = step.mesh.target(side);
   if (!step.colours.is_coloured(far) || step.colours.may_join(node, far)) return side;
@@ -126,7 +127,7 @@ Index define_side_edge(Step& step, const Corner& corner, const Taken& taken) {
     step.notes.side = SideEdge::split;
     return mesh.find(node, split_triangles(step, opposite, end));
   }
-  // A front edge is opposite: what is there is taken at any angle, the alternative is worse.
+  // A front edge is opposite: an existing edge is taken at any angle, since the alternative is worse.
   return fan.best == kNone ? kNone : without_odd_loop(step, fan.best);
 }
 

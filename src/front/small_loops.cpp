@@ -8,7 +8,7 @@
 namespace qmorph::front {
 namespace {
 
-/// A loop with more triangles inside than this is no remainder: it is meshed by the front.
+/// A loop with more triangles inside than this is left to the front.
 constexpr std::size_t kMostTriangles4 = 6;
 constexpr std::size_t kMostTriangles6 = 8;
 /// A remainder closed at once must have corners at least this good.

@@ -19,7 +19,7 @@ namespace qmorph::front {
 /// An edge at a node, and the face that follows it counter-clockwise.
 struct Spoke {
   Vec2 end;
-  Vec2 opposite;  ///< the corner of the quad that follows which faces the node
+  Vec2 opposite;  ///< of the quad that follows, the corner opposite the node
   bool is_quad;   ///< what follows is no triangle
 };
 

@@ -19,23 +19,27 @@ std::array<Index, 4> corners_of(const kernel::Mesh& mesh, Index f) {
 }  // namespace
 
 StepReporter::StepReporter(const kernel::Mesh& mesh, Front& front, const std::vector<State>& states,
-                           double corner_angle, Observer& observer, const FlatFrame& frame)
+                           double corner_angle, const MorphSettings& settings)
     : mesh_(mesh), front_(front), states_(states), was_front_(mesh.half_edge_slots(), false) {
   std::vector<Eigen::Vector2d> points(mesh.vertex_slots(),
                                       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v)) points[v] = mesh.point(v);
+  std::vector<Eigen::Vector3d> places;
+  for (Index v = 0; settings.lift && v < mesh.vertex_slots(); ++v)
+    places.push_back(mesh.is_live_vertex(v) ? settings.lift(points[v]) : Eigen::Vector3d::Zero());
   std::vector<std::array<Index, 4>> faces;
   for (Index f = 0; f < mesh.face_slots(); ++f) faces.push_back(corners_of(mesh, f));
   for (Index h = 0; h < mesh.half_edge_slots(); ++h)
     if (is_front(h)) edges_.push_back(edge(h)), was_front_[h] = true;
   FrontStart start;
-  start.frame = frame;
+  start.frame = settings.frame;
+  start.places = places;
   start.corner_angle = corner_angle;
   start.points = points;
   start.faces = faces;
   start.edges = edges_;
-  watcher_ = observer.front_starts(start);
+  watcher_ = settings.observer->front_starts(start);
 }
 
 FrontEdge StepReporter::edge(Index h) const {

@@ -7,6 +7,7 @@
 
 #include "front/front.hpp"
 #include "front/mark_set.hpp"
+#include "front/morph.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/observer.hpp"
 
@@ -30,9 +31,9 @@ struct TakenStep {
 
 class StepReporter {
  public:
-  /// Asks the observer who wants to see this front. `states` are those of all front edges, by half-edge.
+  /// Asks the settings' observer who wants to see this front. `states` are those of all front edges, by half-edge.
   StepReporter(const kernel::Mesh& mesh, Front& front, const std::vector<State>& states, double corner_angle,
-               Observer& observer, const FlatFrame& frame);
+               const MorphSettings& settings);
 
   bool is_watched() const { return watcher_ != nullptr; }
   /// To be called after the commit of a step, with states as they are now. Cost: that of the step.

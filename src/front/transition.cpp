@@ -70,7 +70,8 @@ bool transition_seam(Step& step, Index incoming, Index outgoing) {
   const Index gap_out = s.incoming ? outgoing : near_half;
   const Index chord = recover_edge(step, gap_in, mesh.target(gap_out));
   if (chord == kNone) return false;
-  if (form_face(step, std::array{gap_out, Mesh::twin(chord), gap_in}, kMostTrianglesInGap) == kNone) return false;
+  if (form_face(step, std::array<Index, 3>{gap_out, Mesh::twin(chord), gap_in}, kMostTrianglesInGap) == kNone)
+    return false;
   // The two triangles make a quad.
   const Index quad = mesh.face(mesh.join_faces(near_half));
   step.colours.colour_same(s.middle, k);
@@ -81,43 +82,61 @@ bool transition_seam(Step& step, Index incoming, Index outgoing) {
   return true;
 }
 
+namespace {
+
+/// Where the new node behind a split edge goes. The thesis has it at the centroid of the quad; in a parallelogram that
+/// is on the cut from y to p, and makes a straight corner.
+Vec2 place_behind(const kernel::Mesh& mesh, const SplitEdge& s) {
+  Vec2 centroid = Vec2::Zero();
+  Index h = s.behind_k;
+  for (int i = 0; i < 5; ++i, h = mesh.next(h))
+    if (mesh.origin(h) != s.middle) centroid += mesh.point(mesh.origin(h)) / 4;
+  return centroid + kTowardsFront * (mesh.point(s.middle) - centroid);
+}
+
+/// Cuts the five-sided face behind a split edge (mirrored where the edge ended at k):
+///
+///   k----m--------p       k----m--------p       k----m--------p    ahead: the front, from k to p
+///   |             |       |           / |       |     \     / |
+///   |             |  -->  |       c     |  -->  |       c     |    behind: the quad k, p, x, y, whose side
+///   |             |       |   /         |       |   /         |    from k to p has got the node m
+///   y-------------x       y-------------x       y-------------x
+///
+/// First from y to p, then the cut gets the node c, and an edge from m to c divides what is left at m. That gives the
+/// quads k, m, c, y and y, c, p, x, and the triangle m, c, p, which the front takes ahead of it again.
+/// Returns the half-edge m -> c, or kNone where that is not possible.
+Index cut_behind(Step& step, const SplitEdge& s) {
+  kernel::Mesh& mesh = step.mesh;
+  const Vec2 place = place_behind(mesh, s);
+  const Index from_y = s.incoming ? mesh.prev(s.behind_k) : mesh.next(mesh.next(s.behind_k));
+  const Index from_p = s.incoming ? mesh.next(s.behind_p) : s.behind_p;
+  const Index c = mesh.split_edge(mesh.split_face(from_y, from_p), place);
+  step.colours.forget(c);
+  step.size.set(c, step.size[s.middle]);
+  const Index from_m = mesh.origin(s.behind_k) == s.middle ? s.behind_k : s.behind_p;
+  if (mesh.face(from_m) != mesh.face(s.behind_k)) return kNone;
+  Index from_c = from_m;
+  while (mesh.origin(from_c) != c) from_c = mesh.next(from_c);
+  return mesh.split_face(from_m, from_c);
+}
+
+}  // namespace
+
 Index transition_split(Step& step, Index longer, Index k) {
   kernel::Mesh& mesh = step.mesh;
   const unsigned level = step.front.level(longer);
   const SplitEdge s = split_longer(step, longer, k);
   if (s.middle == kNone) return kNone;
-
-  // Behind is the ring k, m, p, x, y (or its mirror image). Cut y-p, put c on the cut, cut m-c: two quads
-  // behind the front and the triangle m, p, c ahead of it.
-  Vec2 centre = Vec2::Zero();
-  Index h = s.behind_k;
-  for (int i = 0; i < 5; ++i, h = mesh.next(h))
-    if (mesh.origin(h) != s.middle) centre += mesh.point(mesh.origin(h)) / 4;
-  // The thesis puts c at the centroid; in a parallelogram that is on the cut, a straight corner of the far quad.
-  centre += kTowardsFront * (mesh.point(s.middle) - centre);
-  const Index from_y = s.incoming ? mesh.prev(s.behind_k) : mesh.next(mesh.next(s.behind_k));
-  const Index from_p = s.incoming ? mesh.next(s.behind_p) : s.behind_p;
-  const Index cut = mesh.split_face(from_y, from_p);  // y -> p
-  const Index c = mesh.split_edge(cut, centre);
-  step.colours.forget(c);
-  step.size.set(c, step.size[s.middle]);
-  const Index ring = mesh.face(s.behind_k);
-  const Index from_m = mesh.origin(s.behind_k) == s.middle ? s.behind_k : s.behind_p;
-  Index from_c = from_m;
-  while (mesh.origin(from_c) != c) from_c = mesh.next(from_c);
-  if (mesh.face(from_m) != ring) return kNone;
-  const Index mc = mesh.split_face(from_m, from_c);
+  const Index mc = cut_behind(step, s);
+  if (mc == kNone) return kNone;
+  const Index c = mesh.target(mc);
   step.colours.colour_opposite(s.middle, k);
   step.colours.colour_same(c, k);
   step.moved.push_back(c);
   const Index base = step.front.contains(mc) ? mc : Mesh::twin(mc);
   smooth_around(step, mesh.face(Mesh::twin(base)));
   if (!step.front.contains(base) || !mesh.is_valid_star(c) || !mesh.is_valid_star(s.middle)) return kNone;
-  h = mesh.out(c);
-  do {
-    inherit_level(step, {h, Mesh::twin(h)}, level);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(c));
+  for (Index h : mesh.around(c)) inherit_level(step, {h, Mesh::twin(h)}, level);
   inherit_level(step, {Mesh::twin(s.behind_k)}, level);
   return base;
 }

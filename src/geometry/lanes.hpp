@@ -7,7 +7,7 @@
 namespace qmorph {
 
 /// The processor works on all four at once, or on two and two: each lane has the same value either way. The alignment
-/// is said since it would depend on the processor otherwise.
+/// is stated because it would depend on the processor otherwise.
 using FourLanes = double __attribute__((vector_size(32), aligned(32)));
 
 }  // namespace qmorph

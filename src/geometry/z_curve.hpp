@@ -7,7 +7,8 @@
 
 namespace qmorph {
 
-/// The numbers of the points in the order of a Z-curve through them [Morton66]; those on one place keep their order.
+/// The numbers of the points in the order of a Z-curve through them [Morton66]; points at the same place keep their
+/// order.
 /// What lies close together in the plane does so in this order, nearly always. Cost: linear.
 std::vector<Index> along_z_curve(const std::vector<Vec2>& points);
 

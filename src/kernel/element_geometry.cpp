@@ -40,27 +40,24 @@ double smallest_sine_of(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2&
 
 }  // namespace
 
-bool Mesh::is_valid_face(Index f) const { return is_above(f, degree(f) == 3 ? kDegenerateSine : kStraightSine); }
+bool Mesh::is_valid_face(AnyFace f) const { return is_above(f, degree(f) == 3 ? kDegenerateSine : kStraightSine); }
 
-bool Mesh::is_valid_star(Index v) const { return is_star_above(v, kDegenerateSine, kStraightSine); }
+bool Mesh::is_valid_star(AnyNode v) const { return is_star_above(v, kDegenerateSine, kStraightSine); }
 
-bool Mesh::is_above(Index f, double sine) const {
+bool Mesh::is_above(AnyFace f, double sine) const {
   const Index h = half_edge(f), k = next(h), l = next(k);
   const double least = sine * sine;
   if (degree(f) == 3) return is_triangle_above(point(origin(h)), point(origin(k)), point(origin(l)), sine);
   if (degree(f) == 4)
     return is_quad_above(point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)), least);
-  Index e = h;
-  do {
+  for (HalfEdgeId e : sides_of(f))
     if (!is_convex_corner(point(origin(prev(e))), point(origin(e)), point(target(e)), sine)) return false;
-    e = next(e);
-  } while (e != h);
   return true;
 }
 
-bool Mesh::is_star_above(Index v, double sine) const { return is_star_above(v, sine, sine); }
+bool Mesh::is_star_above(AnyNode v, double sine) const { return is_star_above(v, sine, sine); }
 
-bool Mesh::is_star_above(Index v, double triangle_sine, double sine) const {
+bool Mesh::is_star_above(AnyNode v, double triangle_sine, double sine) const {
   const double least = sine * sine;
   const Vec2& p = point(v);
   const Index start = out(v);
@@ -78,7 +75,7 @@ bool Mesh::is_star_above(Index v, double triangle_sine, double sine) const {
   return true;
 }
 
-double Mesh::smallest_sine(Index f) const {
+double Mesh::smallest_sine(AnyFace f) const {
   const Index h = half_edge(f), k = next(h), l = next(k);
   if (degree(f) == 3) return smallest_sine_of(point(origin(h)), point(origin(k)), point(origin(l)));
   if (degree(f) == 4) return smallest_sine_of(point(origin(h)), point(origin(k)), point(origin(l)), point(target(l)));
@@ -88,24 +85,17 @@ double Mesh::smallest_sine(Index f) const {
   return smallest;
 }
 
-double Mesh::smallest_sine_around(Index v) const {
+double Mesh::smallest_sine_around(AnyNode v) const {
   double smallest = 1;
-  Index h = out(v);
-  do {
+  for (HalfEdgeId h : around(v))
     if (face(h) != kNone) smallest = std::min(smallest, smallest_sine(face(h)));
-    h = rotate_ccw(h);
-  } while (h != out(v));
   return smallest;
 }
 
-double Mesh::mean_edge(Index v) const {
+double Mesh::mean_edge(AnyNode v) const {
   double sum = 0;
   int edges = 0;
-  Index h = out(v);
-  do {
-    sum += length(h), ++edges;
-    h = rotate_ccw(h);
-  } while (h != out(v));
+  for (HalfEdgeId h : around(v)) sum += length(h), ++edges;
   return sum / edges;
 }
 

@@ -38,8 +38,8 @@ void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<I
   faces_.reserve(with_room(faces.size()));
   half_edges_.reserve(with_room(faces.size() * N));
 
-  // Edges that wait for their other half, in a chain from that of their vertices which has fewer corners: chains are
-  // short, then, even where fans meet.
+  // Edges that wait for their other half, in a chain that starts at whichever of their vertices has fewer corners, so
+  // that chains are short even where fans meet.
   std::vector<Index> corners(vertices_.size(), 0);
   for (const auto& face : faces)
     for (Index i = 0; i < corners_of(face); ++i) ++corners[face[i]];
@@ -84,8 +84,9 @@ void Mesh::build(const std::vector<Vec2>& points, const std::vector<std::array<I
   }
 }
 
-Index Mesh::valence(Index v) const {
-  Index count = 0, h = out(v);
+Index Mesh::valence(AnyNode v) const {
+  Index count = 0;
+  HalfEdgeId h = out(v);
   do {
     ++count;
     h = rotate_ccw(h);
@@ -100,38 +101,35 @@ std::vector<Index> Mesh::valences() const {
   return valences;
 }
 
-Index Mesh::find(Index a, Index b) const {
-  Index h = out(a);
-  do {
+HalfEdgeId Mesh::find(AnyNode a, AnyNode b) const {
+  for (HalfEdgeId h : around(a))
     if (target(h) == b) return h;
-    h = rotate_ccw(h);
-  } while (h != out(a));
-  return kNone;
+  return {};
 }
 
 // --- edits ----------------------------------------------------------------------------------------------
 
-void Mesh::set_fixed(Index v) { edit_vertex(v).fixed = true; }
+void Mesh::set_fixed(AnyNode v) { edit_vertex(v).fixed = true; }
 
-void Mesh::link(Index h, Index after) {
+void Mesh::link(AnyHalfEdge h, AnyHalfEdge after) {
   edit_half_edge(h).next = after;
   edit_half_edge(after).prev = h;
 }
 
 /// Keeps the rule that a boundary vertex's half-edge is the boundary one.
-void Mesh::refresh_out(Index v, Index h) {
-  const Index start = h;
-  do {
-    if (face(h) == kNone) break;
-    h = rotate_ccw(h);
-  } while (h != start);
+void Mesh::refresh_out(AnyNode v, AnyHalfEdge h) {
+  for (HalfEdgeId e : around_from(h))
+    if (face(e) == kNone) {
+      h = e;
+      break;
+    }
   if (out(v) != h) set_out(v, h);
 }
 
-Index Mesh::split_edge(Index h, Vec2 p) {
-  const Index t = twin(h), b = target(h), m = new_vertex(p);
-  const Index n = new_edge(m, b);
-  const Index after = next(h), before = prev(t), f = face(h), g = face(t);
+NodeId Mesh::split_edge(AnyHalfEdge h, Vec2 p) {
+  const NodeId b = target(h), m = new_vertex(p);
+  const HalfEdgeId t = twin(h), n = new_edge(m, b), after = next(h), before = prev(t);
+  const FaceId f = face(h), g = face(t);
   edit_half_edge(t).origin = m;
   link(h, n);
   link(n, after);
@@ -146,11 +144,10 @@ Index Mesh::split_edge(Index h, Vec2 p) {
   return m;
 }
 
-Index Mesh::split_face(Index g, Index h) {
+HalfEdgeId Mesh::split_face(AnyHalfEdge g, AnyHalfEdge h) {
   assert(face(g) == face(h) && g != h);
-  const Index f = face(g), before_g = prev(g), before_h = prev(h);
-  const Index d = new_edge(origin(g), origin(h));
-  const Index other = new_face();
+  const HalfEdgeId before_g = prev(g), before_h = prev(h), d = new_edge(origin(g), origin(h));
+  const FaceId f = face(g), other = new_face();
   link(before_g, d);
   link(d, h);
   link(before_h, twin(d));
@@ -165,26 +162,28 @@ Index Mesh::split_face(Index g, Index h) {
   return d;
 }
 
-Index Mesh::attach_triangle(Index h, Index v) {
+FaceId Mesh::attach_triangle(AnyHalfEdge h, AnyNode v) {
   assert(face(h) == kNone && !is_live_vertex(v));
-  const Index a = origin(h), b = target(h), before = prev(h), after = next(h);
-  const Index bv = new_edge(b, v), va = new_edge(v, a), f = new_face();
+  const NodeId a = origin(h), b = target(h);
+  const HalfEdgeId before = prev(h), after = next(h), bv = new_edge(b, v), va = new_edge(v, a);
+  const FaceId f = new_face();
   link(before, twin(va)), link(twin(va), twin(bv)), link(twin(bv), after);
   link(h, bv), link(bv, va), link(va, h);
-  for (Index e : {h, bv, va}) set_face(e, f);
+  set_face({h, bv, va}, f);
   edit_face(f) = {h, 3};
   set_out(a, twin(va)), set_out(v, twin(bv));
   return f;
 }
 
-Index Mesh::join_faces(Index h) {
-  const Index t = twin(h), f = face(h), g = face(t);
+HalfEdgeId Mesh::join_faces(AnyHalfEdge h) {
+  const HalfEdgeId t = twin(h), joined = next(h);
+  const FaceId f = face(h), g = face(t);
   assert(f != kNone && g != kNone && f != g);
-  const Index joined = next(h), a = origin(h), b = target(h);
+  const NodeId a = origin(h), b = target(h);
   for (Index e = next(t); e != t; e = next(e)) set_face(e, f);
   edit_face(f) = {joined, degree(f) + degree(g) - 2};
   kill_face(g);
-  const Index from_a = next(t);
+  const HalfEdgeId from_a = next(t);
   link(prev(h), next(t));
   link(prev(t), joined);
   kill_edge(h);
@@ -193,11 +192,11 @@ Index Mesh::join_faces(Index h) {
   return joined;
 }
 
-bool Mesh::can_flip(Index h) const {
-  const Index t = twin(h);
+bool Mesh::can_flip(AnyHalfEdge h) const {
+  const HalfEdgeId t = twin(h);
   if (!is_triangle(face(h)) || !is_triangle(face(t))) return false;
-  const Index a = origin(h), b = target(h), c = origin(prev(h)), d = origin(prev(t));
-  const auto is_triangle_valid = [&](Index u, Index v, Index w) {
+  const NodeId a = origin(h), b = target(h), c = origin(prev(h)), d = origin(prev(t));
+  const auto is_triangle_valid = [&](NodeId u, NodeId v, NodeId w) {
     return is_convex_corner(point(u), point(v), point(w), kDegenerateSine) &&
            is_convex_corner(point(v), point(w), point(u), kDegenerateSine) &&
            is_convex_corner(point(w), point(u), point(v), kDegenerateSine);
@@ -205,15 +204,16 @@ bool Mesh::can_flip(Index h) const {
   return is_triangle_valid(a, d, c) && is_triangle_valid(d, b, c) && find(c, d) == kNone;
 }
 
-void Mesh::flip(Index h) {
+void Mesh::flip(AnyHalfEdge h) {
   //      c            c        h: a -> b becomes h: d -> c
   //    / | \        / | \      .
   //   a--h--b  ->  a  h  b     (drawn with a left, b right, the old edge horizontal)
   //    \ | /        \ | /
   //      d            d
-  const Index t = twin(h), f = face(h), g = face(t);
-  const Index bc = next(h), ca = prev(h), ad = next(t), db = prev(t);
-  const Index a = origin(h), b = origin(t), c = origin(ca), d = origin(db);
+  const HalfEdgeId t = twin(h);
+  const FaceId f = face(h), g = face(t);
+  const HalfEdgeId bc = next(h), ca = prev(h), ad = next(t), db = prev(t);
+  const NodeId a = origin(h), b = origin(t), c = origin(ca), d = origin(db);
   edit_half_edge(h).origin = d;
   edit_half_edge(t).origin = c;
   link(h, ca), link(ca, ad), link(ad, h);
@@ -226,37 +226,38 @@ void Mesh::flip(Index h) {
   if (out(b) == t) set_out(b, bc);
 }
 
-bool Mesh::can_collapse(Index h) const {
-  const Index a = origin(h), b = target(h);
+bool Mesh::can_collapse(AnyHalfEdge h) const {
+  const NodeId a = origin(h), b = target(h);
   if (is_boundary(a) || is_fixed(a)) return false;
-  const Index f = face(h), g = face(twin(h));
-  const Index left = is_triangle(f) ? origin(prev(h)) : kNone;
-  const Index right = is_triangle(g) ? origin(prev(twin(h))) : kNone;
+  const FaceId f = face(h), g = face(twin(h));
+  const NodeId left = is_triangle(f) ? origin(prev(h)) : NodeId();
+  const NodeId right = is_triangle(g) ? origin(prev(twin(h))) : NodeId();
   if (left != kNone && (left == right || valence(left) < 3)) return false;
   if (right != kNone && valence(right) < 3) return false;
-  Index e = h;
-  do {
-    const Index x = target(e);
+  for (HalfEdgeId e : around_from(h)) {
+    const NodeId x = target(e);
     if (x != b && x != left && x != right && find(x, b) != kNone) return false;
     // A quad that has a and b at opposite corners would meet b twice.
     if (face(e) != f && face(e) != g && is_quad(face(e)) && target(next(e)) == b) return false;
-    e = rotate_ccw(e);
-  } while (e != h);
+  }
   return true;
 }
 
-void Mesh::collapse(Index h) {
+void Mesh::collapse(AnyHalfEdge h) {
   assert(can_collapse(h));
-  const Index t = twin(h), a = origin(h), b = target(h);
-  const Index f = face(h), g = face(t), after_h = next(h), after_t = next(t);
-  for (Index e = rotate_ccw(h); e != h; e = rotate_ccw(e)) edit_half_edge(e).origin = b;
+  const HalfEdgeId t = twin(h), after_h = next(h), after_t = next(t);
+  const NodeId a = origin(h), b = target(h);
+  const FaceId f = face(h), g = face(t);
+  for (HalfEdgeId e = rotate_ccw(h); e != h; e = rotate_ccw(e)) edit_half_edge(e).origin = b;
   link(prev(h), after_h);
   link(prev(t), after_t);
-  for (const auto& [side, gone, after] : {std::array{f, h, after_h}, std::array{g, t, after_t}}) {
-    if (side == kNone) continue;
-    edit_face(side).half_edge = after;
-    --edit_face(side).degree;
-  }
+  const auto lose_side = [&](FaceId face, HalfEdgeId after) {
+    if (face == kNone) return;
+    edit_face(face).half_edge = after;
+    --edit_face(face).degree;
+  };
+  lose_side(f, after_h);
+  lose_side(g, after_t);
   if (out(b) == t) set_out(b, after_h);
   kill_edge(h);
   kill_vertex(a);
@@ -265,10 +266,10 @@ void Mesh::collapse(Index h) {
 }
 
 /// A face with two sides vanishes; the edge of h stays in the place of both.
-void Mesh::remove_two_gon(Index h) {
-  const Index k = next(h), outer = twin(k), u = origin(h), v = origin(k);
-  const Index gone = face(h), beyond = face(outer);
-  const Index before = prev(outer), after = next(outer);
+void Mesh::remove_two_gon(AnyHalfEdge h) {
+  const HalfEdgeId k = next(h), outer = twin(k), before = prev(outer), after = next(outer);
+  const NodeId u = origin(h), v = origin(k);
+  const FaceId gone = face(h), beyond = face(outer);
   link(before, h);
   link(h, after);
   set_face(h, beyond);
@@ -279,84 +280,38 @@ void Mesh::remove_two_gon(Index h) {
   kill_edge(k);
 }
 
-Index Mesh::open_quad(Index h, Index k, Vec2 p) {
+NodeId Mesh::open_quad(AnyHalfEdge h, AnyHalfEdge k, Vec2 p) {
   //        x                 x
   //        |               /   \        The edges between h = (v, x) and k = (v, y), counter-clockwise,
   //   -----v-----  ->  ---w  Q  v---    go over to w.
   //        |               \   /
   //        y                 y
-  const Index v = origin(h), x = target(h), y = target(k), back = twin(k);
+  const NodeId v = origin(h), x = target(h), y = target(k);
+  const HalfEdgeId back = twin(k);
   assert(h != k && rotate_ccw(h) != k);
-  const Index w = new_vertex(p);
-  for (Index e = rotate_ccw(h); e != k;) {
-    const Index following = rotate_ccw(e);
+  const NodeId w = new_vertex(p);
+  for (HalfEdgeId e = rotate_ccw(h); e != k;) {
+    const HalfEdgeId following = rotate_ccw(e);
     edit_half_edge(e).origin = w;
     e = following;
   }
-  const Index wx = new_edge(w, x), wy = new_edge(w, y), quad = new_face();
-  const Index left = face(h), right = face(back);
-  const Index before_h = prev(h), after_h = next(h), before_back = prev(back), after_back = next(back);
+  const HalfEdgeId wx = new_edge(w, x), wy = new_edge(w, y);
+  const FaceId quad = new_face(), left = face(h), right = face(back);
+  const HalfEdgeId before_h = prev(h), after_h = next(h), before_back = prev(back), after_back = next(back);
   link(before_h, wx), link(wx, after_h);
   link(before_back, twin(wy)), link(twin(wy), after_back);
   set_face(wx, left), set_face(twin(wy), right);
   edit_face(left).half_edge = wx;
   edit_face(right).half_edge = twin(wy);
   link(h, twin(wx)), link(twin(wx), wy), link(wy, back), link(back, h);
-  for (Index e : {h, twin(wx), wy, back}) set_face(e, quad);
+  set_face({h, twin(wx), wy, back}, quad);
   edit_face(quad) = {h, 4};
   set_out(w, wx);
   refresh_out(v, h);
   return w;
 }
 
-std::vector<Index> Mesh::pillow(const std::vector<Index>& loop, double share) {
-  //   v0--b0--v1            The half-edges b of the loop go over to the new quads; n take their place
-  //   |s0     |s1           in the faces inside.
-  //   w0--n0--w1
-  const std::size_t size = loop.size();
-  std::vector<Index> copies(size), inner(size), spokes(size);
-  std::vector<std::vector<Index>> moved(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    const Index back = twin(loop[(i + size - 1) % size]);
-    Vec2 centre = Vec2::Zero();
-    int corners = 0;
-    for (Index e = loop[i];; e = rotate_ccw(e)) {
-      if (e != loop[i]) moved[i].push_back(e);
-      centre += point(target(e)), ++corners;
-      if (rotate_ccw(e) == back) break;
-    }
-    centre += point(target(back)), ++corners;
-    const Vec2& p = point(origin(loop[i]));
-    copies[i] = new_vertex(p + share * (centre / corners - p));
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    inner[i] = new_edge(copies[i], copies[(i + 1) % size]);
-    spokes[i] = new_edge(origin(loop[i]), copies[i]);
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t before = (i + size - 1) % size, after = (i + 1) % size;
-    const Index b = loop[i], f = face(b), old_prev = prev(b), old_next = next(b);
-    // A neighbour in the loop has been, or will be, replaced as well.
-    link(old_prev == loop[before] ? inner[before] : old_prev, inner[i]);
-    if (old_next != loop[after]) link(inner[i], old_next);
-    set_face(inner[i], f);
-    edit_face(f).half_edge = inner[i];
-    for (Index e : moved[i]) edit_half_edge(e).origin = copies[i];
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t after = (i + 1) % size;
-    const Index quad = new_face(), b = loop[i];
-    link(b, spokes[after]), link(spokes[after], twin(inner[i]));
-    link(twin(inner[i]), twin(spokes[i])), link(twin(spokes[i]), b);
-    for (Index e : {b, spokes[after], twin(inner[i]), twin(spokes[i])}) set_face(e, quad);
-    edit_face(quad) = {b, 4};
-    set_out(copies[i], inner[i]);
-    if (origin(out(origin(b))) != origin(b)) set_out(origin(b), b);
-  }
-  return copies;
-}
-
-Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside) {
+FaceId Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside) {
   auto& [sides, corners, inner, origins] = scratch_;
   sides.assign(ring.begin(), ring.end());
   corners.clear(), inner.clear(), origins.clear();
@@ -365,15 +320,12 @@ Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside
   std::sort(corners.begin(), corners.end());
   const auto on_ring = [&sides = sides](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
   for (Index f : inside) {
-    const Index start = half_edge(f);
-    Index h = start;
-    do {
+    for (HalfEdgeId h : sides_of(f)) {
       if (!on_ring(h)) {
         origins.push_back(origin(h));
         if ((h & 1) == 0) inner.push_back(h);
       }
-      h = next(h);
-    } while (h != start);
+    }
   }
   for (Index r : ring) {
     const Index v = origin(r);
@@ -384,7 +336,7 @@ Index Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside
   }
   for (Index h : inner) kill_edge(h);
   for (Index f : inside) kill_face(f);
-  const Index face = new_face();
+  const FaceId face = new_face();
   for (std::size_t i = 0; i < ring.size(); ++i) {
     set_face(ring[i], face);
     link(ring[i], ring[(i + 1) % ring.size()]);

@@ -17,8 +17,8 @@ void sort_unique(std::vector<Value>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// The same for indices, which are near to each other as a rule: a bit is set for each, and the bits are read in their
-/// order. Sorting takes ten times as long, for the processor can foresee no comparison.
+/// The same for indices, which usually lie close together: a bit is set for each, and the bits are read in order.
+/// Sorting takes ten times as long, because the processor cannot predict the comparisons.
 inline void sort_unique(std::vector<Index>& values) {
   constexpr std::size_t kWord = 64, kMostWordsPerValue = 4, kFewWords = 32;
   if (values.empty()) return;

@@ -28,7 +28,7 @@ Index take(Pool& pool, bool recording) {
 
 }  // namespace
 
-Index Mesh::new_edge(Index from, Index to) {
+HalfEdgeId Mesh::new_edge(AnyNode from, AnyNode to) {
   Index h = take(edge_pool_, recording_);
   if (h == kNone) {
     h = Index(half_edges_.size());
@@ -36,42 +36,42 @@ Index Mesh::new_edge(Index from, Index to) {
   }
   edit_half_edge(h) = {.origin = from};
   edit_half_edge(h ^ 1) = {.origin = to};
-  return h;
+  return HalfEdgeId(h);
 }
 
-Index Mesh::new_vertex(Vec2 p) {
+NodeId Mesh::new_vertex(Vec2 p) {
   Index v = take(vertex_pool_, recording_);
   if (v == kNone) {
     v = Index(vertices_.size());
     vertices_.emplace_back();
   }
   edit_vertex(v) = {.point = p};
-  return v;
+  return NodeId(v);
 }
 
-Index Mesh::new_face() {
+FaceId Mesh::new_face() {
   Index f = take(face_pool_, recording_);
   if (f == kNone) {
     f = Index(faces_.size());
     faces_.emplace_back();
   }
   edit_face(f) = {};
-  return f;
+  return FaceId(f);
 }
 
-void Mesh::kill_edge(Index h) {
-  h &= ~Index(1);
-  edit_half_edge(h) = {};
-  edit_half_edge(h ^ 1) = {};
-  release(edge_pool_, h);
+void Mesh::kill_edge(AnyHalfEdge h) {
+  const Index slot = h & ~Index(1);
+  edit_half_edge(slot) = {};
+  edit_half_edge(slot + 1) = {};
+  release(edge_pool_, slot);
 }
 
-void Mesh::kill_vertex(Index v) {
+void Mesh::kill_vertex(AnyNode v) {
   edit_vertex(v).out = kNone;
   release(vertex_pool_, v);
 }
 
-void Mesh::kill_face(Index f) {
+void Mesh::kill_face(AnyFace f) {
   edit_face(f) = {};
   release(face_pool_, f);
 }

@@ -12,12 +12,12 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi, kRight = kPi / 2, kDegree = kPi / 180;
 
-/// Heights of cells on top of one another do not differ by a larger factor; nor those of cells near to isotropic by
-/// this one.
+/// Heights of cells on top of one another do not differ by a larger factor than the first; those of nearly isotropic
+/// cells not by more than the second.
 constexpr double kJump = 4, kNearJump = 2.2;
 /// By how much cells near to isotropic may be off what is expected, and the column's middle line off its direction.
 constexpr double kNearMisfit = 20 * kDegree;
-/// Higher cells than so many times their length belong to other columns.
+/// Cells higher than so many times their length belong to other columns.
 constexpr double kLeastAspect = 0.5;
 
 Vector3d middle(const Sides& sides, Index c) { return (sides.point(sides.from(c)) + sides.point(sides.to(c))) / 2; }

@@ -5,7 +5,7 @@ namespace qmorph::layers {
 namespace {
 
 /// What lies between two columns at a node: columns that grow from the triangles at the tip, from right to left. They
-/// have no first row: there the triangles are.
+/// have no first row, since the triangles are there.
 struct Fan {
   const Column *right = nullptr, *left = nullptr;  ///< on the walls
   std::vector<Column> columns;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kFew = 16;
 
 /// Joined by inner edges, triangles without a node inside are a tree: a leaf has one neighbour to be paired with, and
-/// so on. Nothing if that does not go up, or makes a poor quad.
+/// so on. Nothing if a triangle is left over, or a quad would be poor.
 std::vector<Cell> pair_tree(const Sides& sides, std::vector<Index> triangles) {
   std::vector<Cell> cells;
   while (!triangles.empty()) {

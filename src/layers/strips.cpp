@@ -108,7 +108,7 @@ class Strips {
       else
         undecided.push_back(p);
     }
-    // Neighbours of columns that are decided first; where there is none, the less skew way.
+    // Neighbours of columns that are decided come first; where there are none, the less skew way is taken.
     for (; !undecided.empty(); undecided.pop_front()) {
       queue_.push_back(undecided.front());
       while (!queue_.empty()) {

@@ -7,8 +7,8 @@
 namespace qmorph::layers {
 namespace {
 
-/// A column begins with a cell that is longer than high by this between two others, or by this where it goes on with a
-/// row.
+/// How many times longer than high a cell must be to begin a column: between two other columns, and where it continues
+/// a row.
 constexpr double kStartBetween = 1.8, kStartBeside = 1;
 /// Heights in the first row do not differ by more, if only the row is a reason to start.
 constexpr double kSameRow = 1.5;

@@ -17,7 +17,8 @@ extern "C" void __tsan_release(void*);
 namespace qmorph::parallel {
 namespace {
 
-// TBB sees to it that what comes before a loop is seen inside, and what is done inside is seen after it. The thread
+// TBB makes sure that the body of a loop sees what was written before it, and that what the body writes is seen
+// afterwards. The thread
 // sanitizer does not look into TBB and has to be told.
 #ifdef __SANITIZE_THREAD__
 char fork;  // its address alone matters: a loop's own data cannot be read before the loop's start is known of
@@ -37,7 +38,7 @@ void after_loop(void*) {}
 void with_threads(int threads, const std::function<void()>& work) {
   const int most = tbb::info::default_concurrency();  // TBB complains on standard error when it is asked for more
   const int wanted = threads == 0 ? most : std::min(threads, most);
-  // Inside of such a call the threads are shared, not multiplied.
+  // Inside such a call the threads are shared, not multiplied.
   if (wanted == tbb::this_task_arena::max_concurrency()) return work();
   tbb::task_arena arena(wanted);
   arena.execute(work);

@@ -17,7 +17,7 @@ class SharedProgress {
   /// For one part of this weight; empty if `report` is.
   ProgressCallback part(double weight) const;
 
-  /// No part need be begun any more.
+  /// Parts that have not begun need not begin any more.
   bool is_over() const;
   /// Throws what the end of all parts is to throw: what `report` has thrown, or Cancelled.
   void finish() const;

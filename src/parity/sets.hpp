@@ -14,7 +14,7 @@ class QMORPH_API Sets {
   explicit Sets(std::size_t count);
   Index root(Index i);
   void unite(Index i, Index j);
-  std::vector<std::vector<Index>> members();  ///< by root; empty for who is none
+  std::vector<std::vector<Index>> members();  ///< by root; empty for other members
 
  private:
   std::vector<Index> parent_;

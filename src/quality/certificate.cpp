@@ -96,7 +96,8 @@ class Explanation {
     return near;
   }
 
-  /// A kept node is nearer to a kept edge that it does not belong to than is good for quads between them.
+  /// A kept node is so near to a kept edge which it does not belong to that there is no room for good quads between
+  /// them.
   bool is_narrow(const std::set<Index>& elements) {
     std::vector<Edge> edges;
     std::set<Index> nodes;

@@ -26,7 +26,7 @@ QMORPH_API DirectedSize median(const std::vector<DirectedSize>& sizes);
 /// The larger of the two, each of them or its inverse, whichever is above 1.
 QMORPH_API double largest_ratio(const DirectedSize& size);
 
-/// More than that, and sizes are not kept.
+/// If sizes differ by more than this, they count as not kept.
 inline constexpr double kLargestSizeRatio = 1.5;
 
 }  // namespace qmorph

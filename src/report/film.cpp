@@ -58,6 +58,7 @@ FilmRecorder::FilmRecorder(const FrontStart& start)
   film_.axis_u = quantum_ * start.frame.axis_u;
   film_.axis_v = quantum_ * start.frame.axis_v;
   film_.points = places_;
+  film_.places.assign(start.places.begin(), start.places.end());
   film_.faces = faces_;
 }
 

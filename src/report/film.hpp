@@ -13,7 +13,7 @@
 
 namespace qmorph::report {
 
-/// One region's front. A point (x, y) of the film is `origin + x * axis_u + y * axis_v` in the model.
+/// One region's front. A point (x, y) of the film is `origin + x * axis_u + y * axis_v` in the model, if it is planar.
 ///
 /// `bytes` holds the steps one after another. Numbers are LEB128 (seven bits a byte, lowest first, the high bit says
 /// that more follow); `s` marks signed ones, written as 2n or -2n - 1. "near" is the origin of the step's base edge:
@@ -31,6 +31,8 @@ namespace qmorph::report {
 struct Film {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
+  /// Of a curved surface: where `points` are in the model. Others lie in the triangles at the start, each flat.
+  std::vector<Eigen::Vector3d> places;
   double corner_angle = 0;                          ///< an end of a front edge is a corner below it, in radians
   std::vector<std::array<std::int32_t, 2>> points;  ///< at the start
   std::vector<std::array<Index, 4>> faces;  ///< at the start; of a triangle the last is kNone, of no face the first

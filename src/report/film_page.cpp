@@ -14,64 +14,44 @@ namespace qmorph::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
 
-/// A film, and where it is seen: a point (x, y) of it at `at + x * u + y * w`.
+/// A film, and where it is seen: a point (x, y) of it at `at + x * u + y * w`, along the frame's axes; those of a curved
+/// surface at their places.
 struct PlacedFilm {
   const Film* film = nullptr;
   int surface = 0;
-  Vec2 at = Vec2::Zero(), u = Vec2::Zero(), w = Vec2::Zero();
+  Vec3 at = Vec3::Zero(), u = Vec3::Zero(), w = Vec3::Zero();
 };
 
-/// Directions in which films are laid out flat.
-struct Plane {
-  Eigen::Vector3d origin, right, up;
-  Vec2 flat(const Eigen::Vector3d& d) const { return {d.dot(right), d.dot(up)}; }
-};
-
-Eigen::Vector3d normal_of(const Film& film) { return film.axis_u.cross(film.axis_v).stableNormalized(); }
-
-Plane plane_of(const Film& film) {
-  Eigen::Vector3d normal = normal_of(film);
-  if (normal.z() > -1e-6 && std::abs(normal.z()) > 0.999)  // as the model has it
-    return {film.origin, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
-  const Eigen::Vector3d right = film.axis_u.stableNormalized();
-  return {film.origin, right, normal.cross(right)};
+Vec3 point_of(const Film& film, std::size_t i) {
+  if (!film.places.empty()) return film.places[i];
+  return film.origin + film.points[i][0] * film.axis_u + film.points[i][1] * film.axis_v;
 }
 
-/// All films lie in one plane, or in planes that can be laid on one another.
-bool in_one_plane(const std::vector<PlacedFilm>& films) {
-  constexpr double kParallel = 0.9999;
-  const Eigen::Vector3d normal = normal_of(*films.front().film);
-  return std::all_of(films.begin(), films.end(),
-                     [&](const PlacedFilm& f) { return std::abs(normal.dot(normal_of(*f.film))) > kParallel; });
-}
-
-void place(PlacedFilm& placed, const Plane& plane) {
-  placed.at = plane.flat(placed.film->origin - plane.origin);
-  placed.u = plane.flat(placed.film->axis_u);
-  placed.w = plane.flat(placed.film->axis_v);
-}
-
-/// The box around a film in the plane.
-Eigen::AlignedBox2d box_of(const PlacedFilm& placed) {
-  Eigen::AlignedBox2d box;
-  for (const auto& p : placed.film->points) box.extend(placed.at + p[0] * placed.u + p[1] * placed.w);
-  return box;
-}
-
-/// Surfaces in several planes: each flat, one beside the other.
-void lay_out_in_a_row(std::vector<PlacedFilm>& films) {
-  constexpr double kGap = 0.1;
-  double x = 0;
-  for (std::size_t first = 0, end; first < films.size(); first = end) {
-    for (end = first; end < films.size() && films[end].surface == films[first].surface;) ++end;
-    const Plane plane = plane_of(*films[first].film);
-    Eigen::AlignedBox2d box;
-    for (std::size_t i = first; i < end; ++i) place(films[i], plane), box.extend(box_of(films[i]));
-    for (std::size_t i = first; i < end; ++i) films[i].at += Vec2(x, 0) - box.min();
-    x += (1 + kGap) * box.sizes().x();
+/// The frame that all points lie in, or one for a scene in space.
+Frame frame_of(const std::vector<PlacedFilm>& films) {
+  constexpr double kFlat = 1e-6, kAlongZ = 1 - 1e-9;
+  Frame frame;
+  Eigen::AlignedBox3d box;
+  for (const PlacedFilm& placed : films)
+    for (std::size_t i = 0; i < placed.film->points.size(); ++i) box.extend(point_of(*placed.film, i));
+  if (box.isEmpty()) return frame;
+  frame.centre = box.center();
+  frame.radius = std::max(0.5 * box.sizes().norm(), std::numeric_limits<double>::min());
+  const Film& first = *films.front().film;
+  const Vec3 normal = first.axis_u.cross(first.axis_v).stableNormalized();
+  if (normal.z() <= kAlongZ) {  // else as the model has it
+    frame.right = first.axis_u.stableNormalized();
+    frame.up = normal.cross(frame.right);
   }
+  for (const PlacedFilm& placed : films) {
+    frame.flat = frame.flat && placed.film->places.empty();
+    for (std::size_t i = 0; frame.flat && i < placed.film->points.size(); ++i)
+      frame.flat = std::abs(frame.to_frame(point_of(*placed.film, i)).z()) <= kFlat * frame.radius;
+  }
+  if (!frame.flat) frame.right = Vec3::UnitX(), frame.up = Vec3::UnitZ();
+  return frame;
 }
 
 std::vector<PlacedFilm> placed_films(const ModelReport& model, const Recorder& recorder) {
@@ -79,21 +59,19 @@ std::vector<PlacedFilm> placed_films(const ModelReport& model, const Recorder& r
   for (const SurfaceReport& surface : model.surfaces)
     if (const History* history = recorder.find(surface))
       for (const Film& film : history->films) films.push_back({&film, surface.tag});
-  if (films.empty()) return films;
-  if (!in_one_plane(films)) {
-    lay_out_in_a_row(films);
-  } else {
-    const Plane plane = plane_of(*films.front().film);
-    for (PlacedFilm& film : films) place(film, plane);
-  }
-  // Numbers on the page have 32 bits: the middle is the origin.
-  Eigen::AlignedBox2d box;
-  for (const PlacedFilm& film : films) box.extend(box_of(film));
-  for (PlacedFilm& film : films) film.at -= box.center();
   return films;
 }
 
-Json vector_json(const Vec2& v) { return {v.x(), v.y()}; }
+void place(PlacedFilm& placed, const Frame& frame) {
+  placed.at = frame.to_frame(placed.film->origin);
+  placed.u = frame.to_frame(frame.centre + placed.film->axis_u);
+  placed.w = frame.to_frame(frame.centre + placed.film->axis_v);
+}
+
+Json vector_json(const Vec3& v, const Frame& frame) {
+  if (frame.flat) return {v.x(), v.y()};
+  return {v.x(), v.y(), v.z()};
+}
 
 /// Numbers as differences to the one before, in the film's coding of signed numbers.
 class Differences {
@@ -132,29 +110,44 @@ std::vector<std::uint8_t> packed_faces(const Film& film) {
   return numbers.bytes();
 }
 
-Json region_json(const PlacedFilm& placed, Blob& blob) {
+Json region_json(const PlacedFilm& placed, const Frame& frame, Blob& blob) {
   const Film& film = *placed.film;
-  Json json{{"surface", placed.surface},  {"at", vector_json(placed.at)},      {"u", vector_json(placed.u)},
-            {"w", vector_json(placed.w)}, {"corner_angle", film.corner_angle}, {"step_count", film.steps}};
+  Json json{{"surface", placed.surface},         {"at", vector_json(placed.at, frame)},
+            {"u", vector_json(placed.u, frame)}, {"w", vector_json(placed.w, frame)},
+            {"corner_angle", film.corner_angle}, {"step_count", film.steps}};
   json["point_count"] = film.points.size();
   json["face_count"] = film.faces.size();
   json["points"] = blob.add(std::span<const std::uint8_t>(packed_points(film)));
   json["faces"] = blob.add(std::span<const std::uint8_t>(packed_faces(film)));
+  if (!film.places.empty()) {
+    std::vector<float> places;
+    for (const Vec3& p : film.places)
+      for (double x : frame.to_frame(p)) places.push_back(float(x));
+    json["places"] = blob.add(std::span<const float>(places));
+  }
   json["steps"] = blob.add(std::span<const std::uint8_t>(film.bytes));
   return json;
 }
 
 }  // namespace
 
-std::string film_page(const ModelReport& model, const Recorder& recorder, const RunFacts& facts) {
+std::string film_page(const ModelReport& model, const Recorder& recorder, const RunFacts& facts,
+                      const Viewpoint& from) {
+  std::vector<PlacedFilm> films = placed_films(model, recorder);
+  const Frame frame = frame_of(films);
+  const Turn turn = frame.flat ? Turn{} : turn_of(frame, from);
   Blob blob;
   Json json{{"kind", "film"},
             {"version", kVersion},
             {"command", command_line(facts.arguments)},
             {"input", facts.input},
             {"output", facts.output}};
+  json["frame"] = {{"flat", frame.flat}, {"turned", {turn.up, turn.right}}};
   json["regions"] = Json::array();
-  for (const PlacedFilm& film : placed_films(model, recorder)) json["regions"].push_back(region_json(film, blob));
+  for (PlacedFilm& film : films) {
+    place(film, frame);
+    json["regions"].push_back(region_json(film, frame, blob));
+  }
   return fill_page(kFilmPage, "front of " + file_name(facts.output) + " – qmorph", json, blob);
 }
 

@@ -101,25 +101,27 @@ Json scale_json() {
   return list;
 }
 
-Json frame_json(const Frame& frame) {
+Json frame_json(const Frame& frame, const Viewpoint& from) {
+  const Turn turn = frame.flat ? Turn{} : turn_of(frame, from);
   return {{"centre", vector_json(frame.centre)},
           {"right", vector_json(frame.right)},
           {"up", vector_json(frame.up)},
           {"radius", frame.radius},
-          {"flat", frame.flat}};
+          {"flat", frame.flat},
+          {"turned", {turn.up, turn.right}}};
 }
 
 }  // namespace
 
 std::string report_page(const Scene& before, const Scene& after, const ModelReport& model, const Recorder& recorder,
-                        const RunFacts& facts) {
+                        const RunFacts& facts, const Viewpoint& from) {
   const Frame frame = find_frame(after);
   Blob blob;
   Json json;
   json["kind"] = "report";
   json["version"] = kVersion;
   json["command"] = command_line(facts.arguments);
-  json["frame"] = frame_json(frame);
+  json["frame"] = frame_json(frame, from);
   json["scale"] = scale_json();
   json["figure_steps"] = kFigureSteps;
   json["meshes"]["before"] = scene_json(before, frame, blob);

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <set>
 
+#include "report/depth_buffer.hpp"
+
 namespace qmorph::report {
 namespace {
 
@@ -18,8 +20,8 @@ constexpr int kShades = 40;
 constexpr Colour kSides{64, 64, 64}, kInk{16, 16, 16}, kPlain{255, 255, 255}, kWhite{255, 255, 255};
 /// Of a typical element's size; in points not more than the second number.
 constexpr double kThin = 0.05, kMostThin = 0.5, kThick = 0.16, kMostThick = 1.4, kMark = 0.24, kMostMark = 4;
-/// A scene in space is turned by these angles about the upward and the rightward axis.
-constexpr double kTurnUp = -0.5, kTurnRight = 0.6;
+/// Of white, how light a face is that is seen from its side, where faces have no colour.
+constexpr double kDimmest = 0.55;
 
 /// How nodes are marked, by valence; 0: all others.
 struct Mark {
@@ -32,9 +34,13 @@ constexpr std::array kMarks = {Mark{3, 3, 1.25, {232, 89, 12}}, Mark{5, 5, 1, {2
 
 class Picture {
  public:
-  Picture(const Scene& scene, PictureColour colour)
-      : scene_(scene), colour_(colour), figures_(measure(scene)), frame_(find_frame(scene)) {
-    project();
+  Picture(const Scene& scene, PictureColour colour, const Viewpoint& from)
+      : scene_(scene),
+        colour_(colour),
+        figures_(measure(scene)),
+        frame_(find_frame(scene)),
+        is_flat_(frame_.flat && from.isZero()) {
+    project(turn_of(frame_, from).rows());
     colour_faces();
     std::vector<float> sizes = figures_.size;
     std::sort(sizes.begin(), sizes.end());
@@ -42,7 +48,7 @@ class Picture {
   }
 
   Drawing run() {
-    if (frame_.flat)
+    if (is_flat_)
       draw_flat();
     else
       draw_in_space();
@@ -50,12 +56,8 @@ class Picture {
   }
 
  private:
-  /// Places on the page, and depths for scenes in space.
-  void project() {
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    if (!frame_.flat)
-      turn = Eigen::AngleAxisd(kTurnRight, Eigen::Vector3d::UnitX()) *
-             Eigen::AngleAxisd(kTurnUp, Eigen::Vector3d::UnitY());
+  /// Places on the page, and depths in its unit.
+  void project(const Eigen::Matrix3d& turn) {
     std::vector<Eigen::Vector3d> turned;
     for (const auto& p : scene_.points) turned.push_back(turn * frame_.to_frame(p));
     Eigen::AlignedBox2d box;
@@ -66,7 +68,7 @@ class Picture {
     drawing_.size = scale_ * box.sizes() + Vec2::Constant(2 * kMargin);
     for (const auto& p : turned) {
       places_.emplace_back(scale_ * (p.head<2>() - box.min()) + Vec2::Constant(kMargin));
-      depths_.push_back(p.z());
+      depths_.push_back(scale_ * p.z());
     }
   }
 
@@ -76,6 +78,7 @@ class Picture {
                                        : colour_ == PictureColour::thesis_metric ? &figures_.thesis_metric
                                                                                  : &figures_.size;
     shades_.assign(scene_.faces.size(), kPlain);
+    if (colour_ == PictureColour::none && !is_flat_) shade_faces();
     if (colour_ == PictureColour::none || values->empty()) return;
     const bool is_size = colour_ == PictureColour::size;
     const auto [low, high] = std::minmax_element(figures_.size.begin(), figures_.size.end());
@@ -88,6 +91,18 @@ class Picture {
                                             : on_scale((shade + 0.5) / kShades);
     }
   }
+
+  /// In the light of a lamp at the eye: without it a surface of one colour has no shape.
+  void shade_faces() {
+    for (std::size_t f = 0; f < shades_.size(); ++f) {
+      const auto& n = scene_.faces[f];
+      const Index last = corners_of(n) - 1;
+      const Eigen::Vector3d normal = (at(n[2]) - at(n[0])).cross(at(n[last]) - at(n[1])).stableNormalized();
+      const double light = kDimmest + (1 - kDimmest) * std::abs(normal.z());
+      shades_[f].red = shades_[f].green = shades_[f].blue = std::uint8_t(std::lround(255 * light));
+    }
+  }
+  Eigen::Vector3d at(Index node) const { return {places_[node].x(), places_[node].y(), depths_[node]}; }
 
   Path path_of(std::size_t f) const {
     Path path;
@@ -115,7 +130,7 @@ class Picture {
     Shape dots{{}, kInk, {}, 0};
     for (Index v : scene_.dots) dots.paths.push_back(polygon(places_[v], 1.1 * thick(), 12));
     if (!dots.paths.empty()) drawing_.shapes.push_back(std::move(dots));
-    if (colour_ != PictureColour::none) draw_marks();
+    if (colour_ != PictureColour::none) draw_marks([](Index) { return true; });
   }
 
   static Path polygon(const Vec2& middle, double radius, int sides) {
@@ -127,32 +142,28 @@ class Picture {
     return path;
   }
 
-  void draw_marks() {
+  template <class Seen>
+  void draw_marks(const Seen& sees) {
     const double radius = std::min(kMostMark, kMark * typical_);
     for (const Mark& mark : kMarks) {
       Shape shape{{}, mark.colour, kWhite, std::min(0.3, 0.15 * radius)};
       for (const auto& [node, valence] : figures_.irregular)
-        if (mark.valence == (valence == 3 || valence == 5 ? valence : 0))
+        if (mark.valence == (valence == 3 || valence == 5 ? valence : 0) && sees(node))
           shape.paths.push_back(polygon(places_[node], mark.size * radius, mark.sides));
       if (!shape.paths.empty()) drawing_.shapes.push_back(std::move(shape));
     }
   }
 
-  /// From back to front; a curve comes with the faces beside it, so that what is behind stays hidden.
+  /// What is seen, from back to front; a curve comes with the faces beside it, so that what is behind stays hidden.
   void draw_in_space() {
     std::set<std::array<Index, 2>> thick_edges;
     const auto sorted = [](Index a, Index b) { return std::array<Index, 2>{std::min(a, b), std::max(a, b)}; };
     for (const auto& edge : figures_.open_edges) thick_edges.insert(sorted(edge[0], edge[1]));
     for (const auto& line : scene_.lines) thick_edges.insert(sorted(line[0], line[1]));
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t f = 0; f < scene_.faces.size(); ++f) {
-      double depth = 0;
-      const Index corners = corners_of(scene_.faces[f]);
-      for (Index i = 0; i < corners; ++i) depth += depths_[scene_.faces[f][i]] / corners;
-      order.emplace_back(depth, f);
-    }
-    std::sort(order.begin(), order.end());
-    for (const auto& [depth, f] : order) {
+    std::vector<Eigen::Vector3d> points;
+    for (Index v = 0; v < places_.size(); ++v) points.push_back(at(v));
+    const DepthBuffer buffer(points, scene_.faces);
+    for (std::size_t f : buffer.back_to_front()) {
       drawing_.shapes.push_back({{path_of(f)}, shades_[f], kSides, thin()});
       Shape curves{{}, {}, kInk, thick()};
       const auto& face = scene_.faces[f];
@@ -161,12 +172,14 @@ class Picture {
           curves.paths.push_back(segment({face[i], face[(i + 1) % n]}));
       if (!curves.paths.empty()) drawing_.shapes.push_back(std::move(curves));
     }
+    if (colour_ != PictureColour::none) draw_marks([&](Index v) { return buffer.sees(points[v]); });
   }
 
   const Scene& scene_;
   PictureColour colour_;
   SceneFigures figures_;
   Frame frame_;
+  bool is_flat_;
   std::vector<Vec2> places_;
   std::vector<double> depths_;
   std::vector<Colour> shades_;
@@ -185,7 +198,9 @@ std::optional<PictureColour> find_picture_colour(std::string_view name) {
   return std::nullopt;
 }
 
-Drawing draw(const Scene& scene, PictureColour colour) { return Picture(scene, colour).run(); }
+Drawing draw(const Scene& scene, PictureColour colour, const Viewpoint& from) {
+  return Picture(scene, colour, from).run();
+}
 
 Scene at_stage(const Scene& after, const ModelReport& model, const Recorder& recorder, Stage stage) {
   Scene scene = after;

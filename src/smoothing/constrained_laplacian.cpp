@@ -18,11 +18,8 @@ struct State {
 
 template <class Visit>
 void visit_faces(const Mesh& mesh, Index v, const Visit& visit) {
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v))
     if (mesh.face(h) != kNone) visit(mesh.face(h));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
 }
 
 std::vector<State> states_around(const Mesh& mesh, Index v, double coincidence) {
@@ -33,23 +30,14 @@ std::vector<State> states_around(const Mesh& mesh, Index v, double coincidence) 
 
 double largest_angle_of(const Mesh& mesh, Index f) {
   double largest = 0;
-  const Index start = mesh.half_edge(f);
-  Index h = start;
-  do {
-    largest = std::max(largest, ccw_angle(mesh.vector(h), -mesh.vector(mesh.prev(h))));
-    h = mesh.next(h);
-  } while (h != start);
+  for (Index h : mesh.sides_of(f)) largest = std::max(largest, ccw_angle(mesh.vector(h), -mesh.vector(mesh.prev(h))));
   return largest;
 }
 
 Vec2 mean_of_neighbours(const Mesh& mesh, Index v) {
   Vec2 sum = Vec2::Zero();
   int count = 0;
-  Index h = mesh.out(v);
-  do {
-    sum += mesh.point(mesh.target(h)), ++count;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  for (Index h : mesh.around(v)) sum += mesh.point(mesh.target(h)), ++count;
   return sum / count;
 }
 

@@ -16,14 +16,37 @@ constexpr int kPower = 6;
 /// Sines do not see lengths: corners whose edges differ a lot cost as if they were sharper.
 constexpr double kLengthWeight = 0.1;
 
-/// |a|^2 |b|^2 / J^2 = sine^-2 of a corner with edges a, b and area J = a x b, and with a small part of the squared
-/// ratio of their lengths. The gradients are with respect to the node.
+/// A corner with the edges a and b. Its energy is f^kPower with
+///   f = |a|^2 |b|^2 / J^2 = 1 / sine^2, for the area J = a x b,
+/// and a small part of the squared ratio of the edges' lengths. Derivatives are with respect to the node.
 struct CornerTerm {
   Vec2 a, b;
   double da, db;  ///< how the edges follow the node: -1, 0 or 1
 };
 
-/// Adds the term to the energy; with derivatives if `derive`.
+/// Adds the gradient of f^kPower and its second derivatives, for its value. With log f = log aa + log bb - 2 log J for
+/// aa = |a|^2, bb = |b|^2:
+///   grad f^p  = p f^p grad log f
+///   grad2 f^p = p f^p (grad2 log f + p grad log f grad log f^T)
+/// The part of the lengths' ratio is small and left out.
+void add_derivatives(Energy& energy, const CornerTerm& c, double value) {
+  const double j = cross(c.a, c.b), aa = c.a.squaredNorm(), bb = c.b.squaredNorm();
+  const Vec2 of_a = (2 * c.da / aa) * c.a, of_b = (2 * c.db / bb) * c.b;  // gradients of log aa, log bb
+  const Vec2 of_j = Vec2(c.da * c.b.y() - c.db * c.a.y(), c.db * c.a.x() - c.da * c.b.x()) / j;  // of log J
+  const Vec2 of_f = of_a + of_b - 2 * of_j;
+  const double diagonal = 2 * c.da * c.da / aa + 2 * c.db * c.db / bb;
+  const auto second = [&](int m, int n) {
+    return (m == n ? diagonal : 0) - of_a[m] * of_a[n] - of_b[m] * of_b[n] + 2 * of_j[m] * of_j[n] +
+           kPower * of_f[m] * of_f[n];
+  };
+  const double weight = kPower * value;
+  energy.gradient += weight * of_f;
+  energy.xx += weight * second(0, 0);
+  energy.yy += weight * second(1, 1);
+  energy.xy += weight * second(0, 1);
+}
+
+/// Adds the term to the energy; with derivatives if `derive`. False if the corner is straight or worse.
 bool add(Energy& energy, const CornerTerm& c, bool derive) {
   const double j = cross(c.a, c.b), aa = c.a.squaredNorm(), bb = c.b.squaredNorm();
   if (!(j * j > kStraightSine * kStraightSine * aa * bb) || j <= 0) {
@@ -34,19 +57,7 @@ bool add(Energy& energy, const CornerTerm& c, bool derive) {
   const double f = aa * bb / (j * j) * (1 - kLengthWeight + kLengthWeight * 0.5 * ratio);
   const double cube = f * f * f, value = cube * cube;  // f^kPower; std::pow rounds in a way of its own on each machine
   energy.value += value;
-  if (!derive) return true;
-  // Of log f: the length weight is small and left out of the derivatives.
-  const Vec2 ga = (2 * c.da / aa) * c.a, gb = (2 * c.db / bb) * c.b;
-  const Vec2 gj = Vec2(c.da * c.b.y() - c.db * c.a.y(), c.db * c.a.x() - c.da * c.b.x()) / j;
-  const Vec2 g = ga + gb - 2 * gj;
-  const double diagonal = 2 * c.da * c.da / aa + 2 * c.db * c.db / bb;
-  const auto second = [&](double gax, double gay, double gbx, double gby, double gjx, double gjy, double gx, double gy,
-                          double d) { return d - gax * gay - gbx * gby + 2 * gjx * gjy + kPower * gx * gy; };
-  const double weight = kPower * value;
-  energy.gradient += weight * g;
-  energy.xx += weight * second(ga.x(), ga.x(), gb.x(), gb.x(), gj.x(), gj.x(), g.x(), g.x(), diagonal);
-  energy.yy += weight * second(ga.y(), ga.y(), gb.y(), gb.y(), gj.y(), gj.y(), g.y(), g.y(), diagonal);
-  energy.xy += weight * second(ga.x(), ga.y(), gb.x(), gb.y(), gj.x(), gj.y(), g.x(), g.y(), 0);
+  if (derive) add_derivatives(energy, c, value);
   return true;
 }
 
@@ -59,16 +70,14 @@ bool add(Energy& energy, const StarElement& e, const Vec2& p, bool derive) {
 /// Of all corners of the elements around v, as if v were at p.
 Energy corners_around(const Mesh& mesh, Index v, const Vec2& p, bool derive) {
   Energy energy;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     if (mesh.face(h) != kNone) {
       const Vec2 &q = mesh.point(mesh.target(h)), &r = mesh.point(mesh.origin(mesh.prev(h)));
       const Vec2 &after_q = mesh.point(mesh.target(mesh.next(h))),
                  &before_r = mesh.point(mesh.origin(mesh.prev(mesh.prev(h))));
       if (!add(energy, {q, after_q, before_r, r}, p, derive)) return energy;
     }
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return energy;
 }
 
@@ -138,11 +147,8 @@ std::vector<Index> nodes_near_bad(const Mesh& mesh, double good, int rings) {
   for (int ring = 0; ring < rings; ++ring) {
     const std::size_t count = nodes.size();
     for (std::size_t i = 0; i < count; ++i) {
-      Index h = mesh.out(nodes[i]);
-      do {
+      for (Index h : mesh.around(nodes[i]))
         if (mesh.face(h) != kNone) take(mesh.face(h));
-        h = mesh.rotate_ccw(h);
-      } while (h != mesh.out(nodes[i]));
     }
   }
   std::erase_if(nodes, [&](Index v) { return !mesh.is_free(v); });

@@ -50,11 +50,8 @@ double distortion(const kernel::Mesh& mesh, Index f, double coincidence) {
 
 double smallest_distortion_around(const kernel::Mesh& mesh, Index v, double coincidence) {
   double smallest = 1;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v))
     if (mesh.face(h) != kNone) smallest = std::min(smallest, distortion(mesh, mesh.face(h), coincidence));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
   return smallest;
 }
 

@@ -59,7 +59,7 @@ template <class Sum>
   sum.add(rx * ty - ry * tx, rr + tt, rx, ry, 1, ty, -tx);
 }
 
-/// Sum of the first `count` lanes; the others are of no element.
+/// Sum of the first `count` lanes; the others hold no element.
 [[gnu::always_inline]] inline double sum_of(const FourLanes& lanes, std::size_t count) {
   const FourLanes used = FourLanes{0, 1, 2, 3} < double(count) ? lanes : FourLanes{};
   return (used[0] + used[1]) + (used[2] + used[3]);

@@ -21,12 +21,10 @@ struct Element {
 
 std::vector<Element> elements_around(const Mesh& mesh, Index v, double coincidence) {
   std::vector<Element> elements;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     const Index f = mesh.face(h);
     if (f != kNone) elements.push_back({f, mesh.is_valid_face(f), distortion(mesh, f, coincidence)});
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return elements;
 }
 
@@ -57,12 +55,10 @@ struct Lengths {
 
 Lengths edge_lengths(const Mesh& mesh, Index v) {
   Lengths lengths;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     lengths.shortest = std::min(lengths.shortest, mesh.length(h));
     lengths.longest = std::max(lengths.longest, mesh.length(h));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return lengths;
 }
 

@@ -21,16 +21,14 @@ namespace {
 bool is_on_neighbour(const kernel::Mesh& mesh, Index v) {
   constexpr double kLeastRatio = 1e-4;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     const double length = mesh.length(h);
     shortest = std::min(shortest, length), longest = std::max(longest, length);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return shortest < kLeastRatio * longest;
 }
 
-/// Where very many edges meet, a ring of neighbours is no neighbourhood: with it, work on a fan would be quadratic.
+/// Where very many edges meet, neighbours are not collected: work on a fan would be quadratic.
 bool is_hub(const kernel::Mesh& mesh, Index v) {
   constexpr Index kMostValence = 24;
   return mesh.valence(v) > kMostValence;
@@ -87,11 +85,11 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   star.look_around(mesh, v);
   const Energy energy = star.energy_with_derivatives(mesh.point(v));
   if (!energy.finite) {
-    // The largest smallest area is not always the largest smallest sine: what was valid has to stay so.
+    // To maximise the smallest area is not always to maximise the smallest sine; what was valid has to stay valid.
     const Vec2 before = mesh.point(v);
     const bool was_valid = mesh.is_valid_star(v);
     untangle_node(mesh, v);
-    // Counted as dearer than it is: where very many nodes need it, smoothing is not worth its time.
+    // Counted at more than it costs: where very many nodes need it, smoothing is not worth the time.
     star.add_work(3 * star.elements() * star.elements() * star.elements());
     if (was_valid && !mesh.is_valid_star(v)) mesh.set_point(v, before);
     return (mesh.point(v) - before).norm() / edge;
@@ -256,12 +254,10 @@ class Passes {
 
   void wake_around(Index v) {
     wake(v);
-    Index h = mesh_.out(v);
-    do {
+    for (Index h : mesh_.around(v)) {
       wake(mesh_.target(h));
       if (mesh_.face(h) != kNone) wake(mesh_.target(mesh_.next(h)));
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
+    }
   }
 
   kernel::Mesh& mesh_;
@@ -297,12 +293,10 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     const std::size_t count = around.size();
     for (std::size_t i = 0; i < count; ++i) {
       if (is_hub(mesh, around[i])) continue;
-      Index h = mesh.out(around[i]);
-      do {
+      for (Index h : mesh.around(around[i])) {
         around.push_back(mesh.target(h));
         if (mesh.face(h) != kNone) around.push_back(mesh.target(mesh.next(h)));
-        h = mesh.rotate_ccw(h);
-      } while (h != mesh.out(around[i]));
+      }
     }
   }
   std::erase_if(around, [&](Index v) { return !mesh.is_live_vertex(v) || !mesh.is_free(v); });

@@ -11,8 +11,8 @@
 namespace qmorph::smoothing {
 
 /// Smooths every node that is free. No element that is valid becomes invalid; elements that are not are untangled where
-/// moving nodes can do it. Later passes visit only nodes near one that moved. Cost: linear, and what the budget allows
-/// for nodes of poor elements, which are optimised one by one, the worst first where it does not last for all.
+/// moving nodes can do it. Later passes visit only nodes near one that moved. Cost: linear, plus what the budget allows
+/// for nodes of poor elements, which are optimised one by one, the worst first if the budget does not last for all.
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget = {});
 
 /// The same for a few nodes and `rings` rings of neighbours around them. Returns false if an element near them is

@@ -16,12 +16,10 @@ constexpr int kLaplacianMoves = 2;  // before optimisation, thesis 4.1.7
 /// The nodes of the elements around v.
 template <class Visit>
 void visit_around(const kernel::Mesh& mesh, Index v, const Visit& visit) {
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     visit(mesh.target(h));
     if (mesh.face(h) != kNone) visit(mesh.target(mesh.next(h)));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
 }
 
 }  // namespace

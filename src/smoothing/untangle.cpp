@@ -27,8 +27,7 @@ std::vector<CornerArea> corner_areas(const kernel::Mesh& mesh, Index v) {
     const Vec2 d = b - a;
     areas.push_back({{-d.y(), d.x()}, -cross(d, a)});
   };
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v)) {
     if (mesh.face(h) != kNone) {
       const Index to_v = mesh.prev(h);
       const Vec2 q = mesh.point(mesh.target(h)) - centre, r = mesh.point(mesh.origin(to_v)) - centre;
@@ -40,8 +39,7 @@ std::vector<CornerArea> corner_areas(const kernel::Mesh& mesh, Index v) {
         add(before_r, r);  // corner at r: r, x, before_r
       }
     }
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  }
   return areas;
 }
 
@@ -174,11 +172,8 @@ double guarded_sine(const Vec2& at, const Vec2& to_next, const Vec2& to_previous
 class Corners {
  public:
   Corners(const kernel::Mesh& mesh, Index v) {
-    Index h = mesh.out(v);
-    do {
+    for (Index h : mesh.around(v))
       if (mesh.face(h) != kNone) add_face(mesh, h);
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(v));
   }
 
   /// Elements looked at so far.
@@ -219,11 +214,7 @@ class Corners {
 
 double shortest_edge(const kernel::Mesh& mesh, Index v) {
   double shortest = std::numeric_limits<double>::infinity();
-  Index h = mesh.out(v);
-  do {
-    shortest = std::min(shortest, mesh.length(h));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  for (Index h : mesh.around(v)) shortest = std::min(shortest, mesh.length(h));
   return shortest;
 }
 
@@ -267,11 +258,8 @@ bool has_immovable_fault(const kernel::Mesh& mesh, std::span<const Index> free_n
            !is_convex_corner(mesh.point(before), mesh.point(at), mesh.point(after), kStraightSine);
   };
   for (Index v : free_nodes) {
-    Index h = mesh.out(v);
-    do {  // the corner that v is no part of: opposite in a quad, none in a triangle
+    for (Index h : mesh.around(v))  // the corner that v is no part of: opposite in a quad, none in a triangle
       if (mesh.is_quad(mesh.face(h)) && is_bad(mesh.next(mesh.next(h)))) return true;
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(v));
   }
   return false;
 }

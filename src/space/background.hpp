@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The triangles of an input surface as what everything in space is measured by: they say where the surface is and
+/// The triangles of an input surface, by which everything in space is measured: they define where the surface is and
 /// which way is up. They are never edited.
 
 #include <Eigen/Core>
@@ -56,7 +56,8 @@ class Background {
   /// Unit normal that changes from node to node, at the point of t with these weights.
   Eigen::Vector3d smooth_normal(Index t, const Eigen::Vector3d& weights) const;
 
-  /// The triangles around the corners of t all have nearly the normal of their corner: nobody has to look closer.
+  /// The triangles around the corners of t all have nearly the normal of their corner, so there is no need to look
+  /// closer.
   bool is_smooth(Index t) const { return is_smooth_[t]; }
 
   /// Triangles around a node that are joined across edges that are no barriers make a fan: a node has several where

@@ -21,8 +21,9 @@ struct CornerNormals {
 };
 
 /// Sines of the corners in space. Negative where the corner is turned over: the cross product of its sides points away
-/// from the surface's normal near the corner and from the whole element's. One of both is enough to be good, since by
-/// the first alone good elements on coarse fillets are accused, where a few triangles turn by a right angle. 0 for a
+/// from the surface's normal near the corner and from the whole element's. It is enough if one of the two agrees: by
+/// the first alone good elements on coarse fillets, where a few triangles turn by a right angle, would be refused. 0
+/// for a
 /// side without length, -1 where a coordinate is NaN.
 template <std::size_t N>
 std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& normals) {
@@ -39,7 +40,7 @@ std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& 
 }
 
 /// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the
-/// element: near 0 it is chance which way a corner turns.
+/// element: near 0 it is a matter of chance which way a corner turns.
 template <std::size_t N>
 double smallest_rise(const Corners<N>& p, const CornerNormals<N>& normals) {
   double least = 1;

@@ -33,7 +33,7 @@ std::vector<Index> grow(const MeshOnSurface& mesh, std::vector<Index> faces, int
   return faces;
 }
 
-/// The parts of a set of faces that hang together, in the order of their first faces. `faces` is sorted.
+/// The connected parts of a set of faces, in the order of their first faces. `faces` is sorted.
 std::vector<std::vector<Index>> components(const MeshOnSurface& mesh, const std::vector<Index>& faces) {
   std::vector<char> seen(faces.size(), 0);
   const auto place = [&](Index f) {

@@ -168,6 +168,14 @@ bool MeshOnSurface::is_clearly_above(Index f, double sine) const {
                                   : is_above(corners<3>(face), normals<3>(f));
 }
 
+double MeshOnSurface::sure_sine(Index f) const {
+  const Face& face = mesh_.faces[f];
+  for (Index i = 0; i < chart::degree(face); ++i)
+    if (!whole_.is_smooth(mesh_.on[face[i]])) return exact_sine(f);
+  const auto sine = [&](const auto& p, const auto& n) { return is_clear(p, n) ? scaled_jacobian(p, n) : exact_sine(f); };
+  return chart::degree(face) == 4 ? sine(corners<4>(face), normals<4>(f)) : sine(corners<3>(face), normals<3>(f));
+}
+
 double MeshOnSurface::exact_sine(Index f) const {
   const Face& face = mesh_.faces[f];
   const auto sine = [&](const auto& p) { return scaled_jacobian(p, whole_normals_.of(p, mesh_.near[f])); };

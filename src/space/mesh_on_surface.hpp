@@ -15,7 +15,7 @@
 namespace qmorph::space {
 
 /// The elements around a node, each turned about the node into the tangent plane there: lengths and angles are those in
-/// space, only what an element is bent is lost. The node is at the origin.
+/// space; only the bend of an element is lost. The node is at the origin.
 struct UnfoldedStar {
   std::vector<smoothing::StarElement> elements;
   Eigen::Vector3d axis_u, axis_v;
@@ -30,8 +30,8 @@ class MeshOnSurface {
   using Face = chart::Face;
 
   /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their
-  /// nodes stay. Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases:
-  /// who judges a result later does not know of them.
+  /// nodes stay. Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases,
+  /// since those who judge a result later do not know of them.
   MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
                 const Background& whole);
 
@@ -68,6 +68,8 @@ class MeshOnSurface {
   /// All corners have larger sines than this, and turn so clearly the way the surface does at the nodes that looking
   /// closer is not needed.
   bool is_clearly_above(Index face, double sine) const;
+  /// exact_sine(), by smallest_sine() where looking closer is not needed.
+  double sure_sine(Index face) const;
   /// Of the faces around a node.
   double smallest_sine_around(Index v) const;
   /// The one that counts, by the surface's normals near the corners.
@@ -76,7 +78,7 @@ class MeshOnSurface {
   /// smallest_rise() by the same normals.
   double exact_rise(Index face) const;
 
-  /// False if an element around is turned so far against the tangent plane that it cannot be laid there.
+  /// False if an element there is turned so far against the tangent plane that it cannot be laid into it.
   bool unfold(Index v, UnfoldedStar& star) const;
 
   /// A point of the surface near one of a node's tangent plane.

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Above it an element may get worse.
+/// Above this an element may get worse.
 constexpr double kLeastQuality = 0.3;
 /// Of what an element had: less than that is clearly worse.
 constexpr double kSameQuality = 0.95;

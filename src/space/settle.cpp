@@ -10,80 +10,118 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Centres nearer to the surface than this are there (edges); up to the second one the pull on them fades.
+constexpr double kThere = 0.01, kNear = 0.03;
+/// Sines of corners that one edge's distance of a centre is worth.
+constexpr double kShapeCost = 0.2;
+
 class Settling {
  public:
   Settling(MeshOnSurface& mesh, const SmoothingOptions& options)
-      : mesh_(mesh), options_(options), slope_(mesh.faces()), way_(mesh.nodes(), Vector3d::Zero()) {
+      : mesh_(mesh), options_(options), is_active_(mesh.nodes(), 1), way_(mesh.nodes(), Vector3d::Zero()) {
     for (Index v = 0; v < mesh.nodes(); ++v) start_.push_back(mesh.place(v));
+    for (Index f = 0; f < mesh.faces(); ++f) seats_.push_back(seat_of(f, mesh.mesh().near[f]));
   }
 
   void run() {
-    constexpr int kPasses = 3;  // twice as many find little more
-    for (int pass = 0; pass < kPasses; ++pass) {
-      for (Index f = 0; f < mesh_.faces(); ++f) slope_[f] = slope_of(f);
+    constexpr int kPasses = 5;
+    for (int pass = 0; pass < kPasses; ++pass)
       for (Index v = 0; v < mesh_.nodes(); ++v)
-        if (mesh_.is_free(v)) settle(v);
-    }
+        if (is_active_[v] && mesh_.is_free(v)) settle(v);
   }
 
  private:
-  /// How fast the distance of a quad's centre from the surface grows when the centre moves; slower where it is nearly
-  /// there.
-  Vector3d slope_of(Index f) const {
-    constexpr double kNear = 0.02;  // of a diagonal
-    if (chart::degree(mesh_.mesh().faces[f]) != 4) return Vector3d::Zero();
+  /// How a face sits on the surface.
+  struct Seat {
+    double distance = 0;                ///< of a quad's centre, in edges
+    Vector3d slope = Vector3d::Zero();  ///< how fast it grows when the centre moves
+    double sine = 1;                    ///< the smallest one
+    Index under = kNone;                ///< triangle under the centre
+    double cost() const { return distance - kShapeCost * sine; }
+  };
+
+  Seat seat_of(Index f, Index hint) const {
+    Seat seat;
+    seat.sine = mesh_.sure_sine(f);
+    if (chart::degree(mesh_.mesh().faces[f]) != 4) return seat;
     Vector3d centre = Vector3d::Zero();
     for (Index side = 4 * f; side < 4 * f + 4; ++side) centre += 0.25 * mesh_.point(mesh_.node(side));
-    const Foot foot = mesh_.surface().walk(centre, mesh_.mesh().near[f]);
-    const double near = kNear * (mesh_.point(mesh_.node(4 * f)) - mesh_.point(mesh_.node(4 * f + 2))).norm();
-    const double distance = std::max(std::sqrt(foot.distance2), near);
-    return distance > 0 ? Vector3d((centre - foot.point) / distance) : Vector3d::Zero();
+    const Foot foot = mesh_.surface().walk(centre, hint);
+    seat.under = foot.triangle;
+    const double diagonal2 = (mesh_.point(mesh_.node(4 * f)) - mesh_.point(mesh_.node(4 * f + 2))).squaredNorm();
+    const double edge = std::sqrt(0.5 * diagonal2), distance = std::sqrt(foot.distance2);
+    if (!(distance > kThere * edge)) return seat;
+    seat.distance = distance / edge;
+    seat.slope = (centre - foot.point) / std::max(distance, kNear * edge);
+    return seat;
   }
 
   /// Sends a node downhill, half as far as its neighbours have come besides: where all go the same way no shape
   /// suffers.
   void settle(Index v) {
-    constexpr double kGain = 0.15, kMost = 0.15;  // of an edge
+    constexpr double kGain = 0.5, kMost = 0.5;  // of an edge
+    constexpr double kPoor = 0.3;               // left to those who look closer
+    is_active_[v] = 0;
     Vector3d slope = Vector3d::Zero(), others = Vector3d::Zero();
-    double edge = 0, count = 0;
+    double edge = 0, count = 0, cost = 0, least = options_.good_quality;
     mesh_.for_sides_around(v, [&](Index side) {
       const Index other = mesh_.node(mesh_.next(side));
-      slope += slope_[side / 4];
+      const Seat& seat = seats_[side / 4];
+      slope += seat.slope;
+      cost += seat.cost();
+      least = std::min(least, seat.sine);
       others += way_[other];
       edge += (mesh_.point(other) - mesh_.point(v)).norm();
       ++count;
     });
-    if (count == 0) return;
+    if (count == 0 || least < kPoor || slope.isZero()) return;
     edge /= count;
     Vector3d way = 0.5 * (way_[v] + others / count) - kGain * edge * slope;
     const Vector3d& up = mesh_.surface().normal(mesh_.mesh().on[v]);
     way -= way.dot(up) * up;
     const double length = way.norm(), most = kMost * edge;
     if (length > most) way *= most / length;
-    const MeshOnSurface::Place before = mesh_.place(v);
-    constexpr double kPoor = 0.3;  // left to those who look closer
-    const double least = std::min(options_.good_quality, mesh_.smallest_sine_around(v));
-    if (least < kPoor) return;
-    mesh_.move(v, start_[v]);
-    mesh_.move(v, mesh_.foot(v, start_[v].point + way));
-    if (stays_good(v, least))
-      way_[v] = way;
-    else
-      mesh_.move(v, before);
+    try_ways(v, way, cost, least);
   }
 
-  bool stays_good(Index v, double least) const {
+  /// All of the way, or less of it.
+  void try_ways(Index v, const Vector3d& way, double cost, double least) {
+    const MeshOnSurface::Place before = mesh_.place(v);
+    for (const double share : {1.0, 0.5, 0.25}) {
+      const Vector3d tried = way_[v] + share * (way - way_[v]);
+      mesh_.move(v, start_[v]);
+      mesh_.move(v, mesh_.foot(v, start_[v].point + tried));
+      if (!is_better(v, cost, least)) continue;
+      way_[v] = tried;
+      auto seat = tried_.begin();
+      mesh_.for_sides_around(v, [&](Index first) {
+        seats_[first / 4] = *seat++;
+        for (Index side = mesh_.next(first); side != first; side = mesh_.next(side)) is_active_[mesh_.node(side)] = 1;
+      });
+      is_active_[v] = 1;
+      return;
+    }
+    mesh_.move(v, before);
+  }
+
+  bool is_better(Index v, double before, double least) {
+    tried_.clear();
+    double after = 0;
     bool good = true;
     mesh_.for_sides_around(v, [&](Index side) {
-      const Index f = side / 4;
-      good = good && (mesh_.is_clearly_above(f, least) || mesh_.exact_sine(f) >= least);
+      if (!good) return;
+      tried_.push_back(seat_of(side / 4, seats_[side / 4].under));
+      after += tried_.back().cost();
+      good = tried_.back().sine >= least;
     });
-    return good;
+    return good && after < before;
   }
 
   MeshOnSurface& mesh_;
   const SmoothingOptions& options_;
-  std::vector<Vector3d> slope_;  ///< by face
+  std::vector<Seat> seats_;      ///< by face
+  std::vector<Seat> tried_;      ///< of the faces around a node, if it stays
+  std::vector<char> is_active_;  ///< by node: something around has moved since it was tried
   std::vector<MeshOnSurface::Place> start_;
   std::vector<Vector3d> way_;  ///< by node: from the start
 };

@@ -56,7 +56,7 @@ class Smoother {
   double descend(Index v, const UnfoldedStar& star, const Energy& energy, double first_share, double sure_energy,
                  const EnergyAt& energy_at) {
     constexpr int kHalvings = 4;
-    constexpr double kLeastStep = 1e-3;  // of an edge: less is not worth a look around
+    constexpr double kLeastStep = 1e-3;  // of an edge: less is not worth visiting the neighbours
     const Vec2 step = step_of(energy, star.edge);
     const double length = step.norm() / star.edge;
     if (!(length > kLeastStep)) return 0;
@@ -75,8 +75,8 @@ class Smoother {
     energies_.set(star_.elements);
     const Energy energy = energies_.energy_with_derivatives(Vec2::Zero());
     if (!energy.finite) return 0;
-    // Of 3 corners of each element the energy is the sum of mu^2, each at least 1 and at least the sine^-2 of its
-    // corner: if the sum leaves so much to one alone, all corners are good.
+    // The energy is the sum of mu^2 over three corners of each element, each at least 1 and at least the sine^-2 of its
+    // corner: if even all that exceeds 1 in the sum came from one corner, that corner would be good, and so all are.
     const double sure = double(3 * star_.elements.size() - 1) + std::pow(options_.good_quality, -2);
     return descend(v, star_, energy, kOverRelaxation, sure, [&](const Vec2& p) { return energies_.energy(p); });
   }

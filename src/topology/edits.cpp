@@ -43,11 +43,8 @@ std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Inde
   faces.reserve(5 * nodes.size());
   for (Index v : nodes) {
     if (!mesh.is_live_vertex(v)) continue;
-    Index h = mesh.out(v);
-    do {
+    for (Index h : mesh.around(v))
       if (mesh.face(h) != kNone) faces.push_back(mesh.face(h));
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(v));
   }
   sort_unique(faces);
   return faces;
@@ -71,12 +68,8 @@ bool pillow(kernel::Mesh& mesh, const std::vector<Index>& faces, std::vector<Ind
   const auto inside = [&](Index f) { return f != kNone && std::binary_search(sorted.begin(), sorted.end(), f); };
   std::vector<Index> outline;
   for (Index f : sorted) {
-    const Index start = mesh.half_edge(f);
-    Index h = start;
-    do {
+    for (Index h : mesh.sides_of(f))
       if (!inside(mesh.face(kernel::Mesh::twin(h)))) outline.push_back(h);
-      h = mesh.next(h);
-    } while (h != start);
   }
   std::vector<Index> origins;
   for (Index h : outline) origins.push_back(mesh.origin(h));
@@ -109,11 +102,8 @@ namespace {
 std::pair<Index, Index> find_in_common_face(const kernel::Mesh& mesh, Index a, Index b) {
   std::vector<std::pair<Index, Index>> ways;  // from a, both ways along each face
   std::vector<Index> starts;
-  Index h = mesh.out(a);
-  do {
+  for (Index h : mesh.around(a))
     if (mesh.face(h) != kNone) ways.emplace_back(h, h), starts.push_back(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(a));
   for (bool any = true; any;) {
     any = false;
     for (std::size_t i = 0; i < ways.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -83,6 +84,36 @@ TEST_CASE("pictures: a stage is as it was then") {
   CHECK(picture("final") != input);
 }
 
+TEST_CASE("pictures: in space from anywhere, and what is flat as ever") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "box.msh", 4.1, false, [] {
+    ::gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+    ::gmsh::model::mesh::generate(2);
+  });
+  make_msh(directory / "flat.msh", 4.1, false, build_two_squares);
+  const auto picture = [&](const std::string& name, const std::vector<std::string>& words) {
+    std::vector<std::string> all{directory / name, "-o", directory / "out.msh", "--svg", directory / "a.svg"};
+    all.insert(all.end(), words.begin(), words.end());
+    REQUIRE(run_qmorph(all).status == 0);
+    return read_file(directory / "a.svg");
+  };
+  const auto shape = [](const std::string& svg) {  // width over height
+    double width = 0, height = 0;
+    REQUIRE(std::sscanf(svg.c_str() + svg.find("width=") + 7, "%lfpt\" height=\"%lf", &width, &height) == 2);
+    return (width - 6) / (height - 6);
+  };
+  CHECK(shape(picture("box.msh", {"--from", "x"})) == doctest::Approx(2.0 / 3).epsilon(1e-3));
+  CHECK(shape(picture("box.msh", {"--from", "-y"})) == doctest::Approx(1.0 / 3).epsilon(1e-3));
+  CHECK(shape(picture("box.msh", {"--from", "-1,0,0"})) == doctest::Approx(2.0 / 3).epsilon(1e-3));
+  const auto faces = [](const std::string& svg) { return count_of(svg, "z\"/>"); };
+  const std::size_t from_x = faces(picture("box.msh", {"--from", "x"})), three = faces(picture("box.msh", {}));
+  CHECK(from_x > 10);
+  CHECK(three > from_x);
+  CHECK(picture("flat.msh", {"--from", "x"}) != picture("flat.msh", {}));
+}
+
 TEST_CASE("pictures: names that there are not, and words without a picture, are refused before anything is read") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
@@ -90,6 +121,9 @@ TEST_CASE("pictures: names that there are not, and words without a picture, are 
   CHECK(run_qmorph({in, "-o", out, "--svg", svg, "--stage", "seam"}).err.find("no stage 'seam'") != std::string::npos);
   CHECK(run_qmorph({in, "-o", out, "--svg", svg, "--colour", "red"}).err.find("no colouring 'red'") !=
         std::string::npos);
+  CHECK(run_qmorph({in, "-o", out, "--svg", svg, "--from", "1,2"}).err.find("'1,2' is no direction") !=
+        std::string::npos);
+  CHECK(run_qmorph({in, "-o", out, "--from", "x"}).status == 1);
   CHECK(run_qmorph({in, "-o", out, "--stage", "front"}).status == 1);
   CHECK(run_qmorph({in, "-o", out, "--svg", out}).status == 1);
   CHECK(directory.files() == std::vector<std::string>{"in.msh"});

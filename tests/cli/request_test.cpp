@@ -130,6 +130,15 @@ TEST_CASE("request: what makes no sense is named") {
       {{"a.geo", "-algo", "magic"}, "-algo: 'magic' is not an algorithm"},
       {{"a.geo", "-v", "loud"}, "-v"},
       {{"a.geo", "-nt", "-1"}, "-nt"},
+      {{"a.geo", "-o", "b.msh", "-o", "c.msh"}, "-o is given twice"},
+      {{"a.geo", "-format", "msh", "-f", "vtk"}, "-format is given twice"},
+      {{"a.geo", "--layers", "some"}, "--layers is on or off, not 'some'"},
+      {{"a.geo", "--crease", "200"}, "--crease takes a number, from 0 to 180, not '200'"},
+      {{"a.geo", "--crease", "nan"}, "--crease takes a number, from 0 to 180, not 'nan'"},
+      {{"a.msh", "--check", "--min-sj", "0.3x"}, "--min-sj takes a number, from -1 to 1, not '0.3x'"},
+      {{"a.msh", "--against", "b", "--max-distance", "-1"}, "--max-distance takes a number, 0 or more, not '-1'"},
+      {{"a.geo", "--surfaces", "3,,7"}, "--surfaces: '' is not a tag"},
+      {{"a.geo", "--keep-curves", "3,x"}, "--keep-curves: 'x' is not a tag; give the numbers of curves"},
       {{"a.geo", "--surfaces", "steel"}, "--surfaces: 'steel' is not a tag; give the numbers of surfaces"},
   };
   for (const auto& the_case : kCases) {
@@ -200,6 +209,20 @@ TEST_CASE("request: counts are whole numbers") {
       CHECK_THROWS_WITH_AS(parse({"in.msh", option, value}), message.c_str(), UsageError);
     }
   CHECK(parse({"in.msh", "-nt", "0"}).threads == 0);
+}
+
+TEST_CASE("request: numbers are read whole, in any usual spelling") {
+  CHECK(parse({"a.msh", "--check", "--min-sj", "+.5"}).thresholds.min_scaled_jacobian == 0.5);
+  CHECK(parse({"a.msh", "--check", "--min-sj", "-5e-1"}).thresholds.min_scaled_jacobian == -0.5);
+  CHECK(parse({"a.geo", "-nt", "+04"}).threads == 4);
+  CHECK_THROWS_AS(parse({"a.geo", "-nt", "+-4"}), UsageError);
+  CHECK_THROWS_AS(parse({"a.geo", "-nt", " 4"}), UsageError);
+}
+
+TEST_CASE("request: flags may be repeated, lists grow") {
+  CHECK(parse({"a.geo", "-bin", "-bin", "-2", "-2"}).binary == true);
+  CHECK(parse({"a.geo", "--all-quad", "--keep-curves", "3,4", "--keep-curves", "7"}).keep_curves ==
+        std::vector<int>{3, 4, 7});
 }
 
 TEST_CASE("request: the window needs no file, and has a panel for what is to be done") {

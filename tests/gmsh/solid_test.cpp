@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/volumes/untangle.hpp"
+#include "support/rng.hpp"
 
 using namespace qmorph;
 using namespace qmorph::adapter;
@@ -73,6 +76,29 @@ TEST_CASE("a volume with elements that are turned over is mended by nodes inside
     for (Index row = 0; row < after.points.size(); ++row)
       if (&mesh.entities[mesh.owner[row]] != &volume) CHECK(after.points[row] == mesh.points[row]);
   }
+}
+
+TEST_CASE("elements that are turned over are mended among thin ones, too") {
+  const Session session;
+  build_tetrahedra();
+  ModelMesh mesh = read_model_mesh();
+  const EntityMesh& volume = *find_entity(mesh, 3, 1);
+  const std::vector<Eigen::Vector3d> before = mesh.points;
+  std::size_t least = 1000, mended = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    test::Rng rng(seed);
+    mesh.points = before;
+    for (std::size_t tag : volume.node_tags)
+      for (double& x : mesh.points[mesh.rows.find(tag)]) x += rng.between(-1, 1);
+    for (auto& p : mesh.points)
+      p.x() = std::copysign(std::pow(std::abs(p.x()), 9), p.x());  // thinner and thinner layers
+    Solid solid = read_solid(mesh, volume);
+    const std::vector<std::size_t> turned = find_turned(solid);
+    least = std::min(least, turned.size());
+    mended += untangle(solid, turned).empty();
+  }
+  CHECK(least > 20);
+  CHECK(mended == 20);
 }
 
 TEST_CASE("faces of a volume that nothing fits are counted") {

@@ -2,6 +2,7 @@
 #pragma once
 /// Random legal edits of a mesh, each with what it must do to counts and boundary.
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -82,7 +83,7 @@ class RandomEdits {
       *it = {from, m};
       boundary_.emplace_back(m, to);
     }
-    for (Index side : {mesh_.out(m), mesh_.rotate_ccw(mesh_.out(m))})
+    for (Index side : std::array<Index, 2>{mesh_.out(m), mesh_.rotate_ccw(mesh_.out(m))})
       if (mesh_.face(side) != kNone && mesh_.degree(mesh_.face(side)) == 5) {
         Index across = mesh_.next(mesh_.next(side));
         if (mesh_.find(m, mesh_.origin(across)) != kNone) across = mesh_.next(across);  // cut to there already

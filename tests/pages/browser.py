@@ -69,11 +69,15 @@ class Browser:
         for kind in ("mousePressed", "mouseReleased"):
             self.command("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
-    def drag(self, x, y, dx, dy):
-        self.command("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button="left", clickCount=1)
+    def drag(self, x, y, dx, dy, button="left", modifiers=0):
+        """Modifiers: 8 for shift."""
+        held = {"left": 1, "right": 2}[button]
+        event = lambda kind, step, **more: self.command("Input.dispatchMouseEvent", type=kind, x=x + step * dx, y=y + step * dy, button=button,
+                                                        modifiers=modifiers, **more)
+        event("mousePressed", 0, clickCount=1)
         for step in (0.5, 1):
-            self.command("Input.dispatchMouseEvent", type="mouseMoved", x=x + step * dx, y=y + step * dy, button="left", buttons=1)
-        self.command("Input.dispatchMouseEvent", type="mouseReleased", x=x + dx, y=y + dy, button="left", clickCount=1)
+            event("mouseMoved", step, buttons=held)
+        event("mouseReleased", 1, clickCount=1)
 
     def wheel(self, x, y, delta):
         self.command("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=delta)

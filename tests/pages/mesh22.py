@@ -27,6 +27,22 @@ class Mesh22:
         points = self.points(tag)
         return [sum(p[i] for p in points) / len(points) for i in (0, 1)]
 
+    def corners_in_space(self, tag):
+        return [self.nodes[n] for n in (self.quads.get(tag) or self.triangles[tag])]
+
+    def middle_in_space(self, tag):
+        points = self.corners_in_space(tag)
+        return [sum(p[i] for p in points) / len(points) for i in range(3)]
+
+    def scaled_jacobian_in_space(self, tag):
+        """Of a flat, convex quad anywhere."""
+        p, least = self.corners_in_space(tag), 1
+        for i in range(4):
+            a, b = ([q[k] - p[i][k] for k in range(3)] for q in (p[(i + 1) % 4], p[i - 1]))
+            cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+            least = min(least, math.hypot(*cross) / (math.hypot(*a) * math.hypot(*b)))
+        return least
+
     def scaled_jacobian(self, tag):
         """Of a quad in the plane z = 0, counter-clockwise."""
         p, least = self.points(tag), 1

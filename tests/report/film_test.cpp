@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <mutex>
 #include <set>
 
 #include "front/fixture.hpp"
 #include "front/morph.hpp"
+#include "qmorph/convert.hpp"
 #include "report/film.hpp"
+#include "support/surfaces.hpp"
 #include "support/watcher.hpp"
 
 using namespace qmorph;
@@ -132,4 +136,42 @@ TEST_CASE("film: played to its end it is the mesh that the front made, to a frac
     for (unsigned level = 1; level <= highest; ++level) CHECK(found.contains(level));
   }
   CHECK(quads > 500);
+}
+
+TEST_CASE("film: nodes of a curved surface have their places on it, those of a plane need none") {
+  struct Places : Observer {
+    std::size_t nodes = 0, curved = 0;
+    double least = 1, most = 1;  // distances from the middle of a sphere
+    std::unique_ptr<FrontObserver> front_starts(const FrontStart& start) override {
+      const std::scoped_lock lock(mutex);
+      curved += start.places.size();
+      for (std::size_t v = 0; v < start.points.size(); ++v) {
+        if (std::isnan(start.points[v].x())) continue;
+        ++nodes;
+        if (start.places.empty()) continue;
+        least = std::min(least, start.places[v].norm()), most = std::max(most, start.places[v].norm());
+      }
+      return nullptr;
+    }
+    std::mutex mutex;
+  };
+  test::Rng rng(3);
+  const Patch sphere = test::sphere(0.25, rng);
+  Places places;
+  Options options;
+  options.observer = &places;
+  convert(sphere, options);
+  CHECK(places.nodes > sphere.points.size() / 2);
+  CHECK(places.curved >= places.nodes);
+  CHECK(places.least > 0.9);
+  CHECK(places.most < 1.001);
+
+  Places flat;
+  options.observer = &flat;
+  Patch square;
+  square.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  convert(square, options);
+  CHECK(flat.nodes > 0);
+  CHECK(flat.curved == 0);
 }

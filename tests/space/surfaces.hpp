@@ -2,11 +2,13 @@
 #pragma once
 /// Curved surfaces of triangles for tests.
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "qmorph/patch.hpp"
+#include "support/halves.hpp"
 #include "support/rng.hpp"
 
 namespace qmorph::test {
@@ -36,14 +38,8 @@ inline Patch triangulated(const GridSurface& grid, const std::function<Eigen::Ve
   const auto node = [&](Index i, Index j) { return j % rows * columns + i % columns; };
   for (Index j = 0; j < grid.along; ++j)
     for (Index i = 0; i < grid.across; ++i) {
-      const Index a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
-      if (rng.chance(0.5)) {
-        patch.triangles.push_back({a, b, c});
-        patch.triangles.push_back({a, c, d});
-      } else {
-        patch.triangles.push_back({a, b, d});
-        patch.triangles.push_back({b, c, d});
-      }
+      const std::array quad{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
+      add_halves(patch, quad, rng.chance(0.5));
     }
   return patch;
 }

@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "support/halves.hpp"
+
 namespace qmorph::test {
 namespace {
 
@@ -101,13 +103,7 @@ Patch grid(int rows, int columns, bool rows_close, bool columns_close, Rng& rng,
     for (int j = 0; j < columns; ++j) {
       const Index a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
       const bool first = (patch.points[a] - patch.points[c]).norm() < (patch.points[b] - patch.points[d]).norm();
-      if (first) {
-        patch.triangles.push_back({a, b, c});
-        patch.triangles.push_back({a, c, d});
-      } else {
-        patch.triangles.push_back({a, b, d});
-        patch.triangles.push_back({b, c, d});
-      }
+      add_halves(patch, {a, b, c, d}, first);
     }
   return patch;
 }

@@ -91,10 +91,7 @@ Pattern::Pattern(const Case& c) : source(&c), centre(c.valences.at(0) - '0'), ha
 
 bool read_ring(const Mesh& mesh, const GlossaryValence& valence, Index centre, Ring& ring) {
   ring = {centre, valence(centre), mesh.is_boundary(centre), false, {}, {}, {}};
-  // On the boundary out() has the outside on its left: the first edge inside, counter-clockwise, is the one after.
-  const Index first = ring.is_boundary ? mesh.rotate_ccw(mesh.out(centre)) : mesh.out(centre);
-  Index h = first;
-  do {
+  for (Index h : mesh.around_inside(centre)) {
     ring.nodes.push_back(mesh.target(h));
     const Index f = mesh.face(h);
     if (f != kNone) {
@@ -102,8 +99,7 @@ bool read_ring(const Mesh& mesh, const GlossaryValence& valence, Index centre, R
       ring.darts.push_back({h, false});
       ring.nodes.push_back(mesh.target(mesh.next(h)));
     }
-    h = mesh.rotate_ccw(h);
-  } while (h != first);
+  }
   for (Index v : ring.nodes) ring.valences.push_back(valence(v));
   return true;
 }

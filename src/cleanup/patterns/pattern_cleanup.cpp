@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cleanup/patterns/match.hpp"
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 #include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
@@ -54,7 +54,7 @@ std::vector<Pattern> read(std::span<const Case> cases) {
   return patterns;
 }
 
-/// Tries compositions and keeps what the mesh is worth more with.
+/// Tries compositions and keeps those that make the mesh better.
 class Trial {
  public:
   Trial(Mesh& mesh, const SmoothingOptions& smoothing, int iterations)
@@ -101,12 +101,10 @@ class Trial {
   void collect_score_nodes(const std::vector<Index>& near) {
     scored_ = near;
     for (Index v : near) {
-      Index h = mesh_.out(v);
-      do {
+      for (Index h : mesh_.around(v)) {
         scored_.push_back(mesh_.target(h));
         if (mesh_.face(h) != kNone) scored_.push_back(mesh_.target(mesh_.next(h)));
-        h = mesh_.rotate_ccw(h);
-      } while (h != mesh_.out(v));
+      }
     }
     sort_unique(scored_);
   }
@@ -121,15 +119,12 @@ class Trial {
 /// Nodes of a face and of its neighbours across edges: what a composition at a corner of it changes.
 std::vector<Index> nodes_beside(const Mesh& mesh, Index f) {
   std::vector<Index> nodes;
-  const Index start = mesh.half_edge(f);
-  Index h = start;
-  do {
+  for (Index h : mesh.sides_of(f)) {
     const Index beyond = mesh.face(Mesh::twin(h));
     if (beyond != kNone)
       for (Index v : topology::nodes_of(mesh, beyond)) nodes.push_back(v);
     nodes.push_back(mesh.origin(h));
-    h = mesh.next(h);
-  } while (h != start);
+  }
   sort_unique(nodes);
   return nodes;
 }
@@ -184,11 +179,7 @@ class Rounds {
     for (Index v : trial_.nodes()) {
       if (!mesh_.is_live_vertex(v)) continue;
       changed_.push_back(v);
-      Index h = mesh_.out(v);
-      do {
-        changed_.push_back(mesh_.target(h));
-        h = mesh_.rotate_ccw(h);
-      } while (h != mesh_.out(v));
+      for (Index h : mesh_.around(v)) changed_.push_back(mesh_.target(h));
     }
   }
 
@@ -255,14 +246,12 @@ class Rounds {
   }
 
   void mend_large_angle(Index v, const AngleLimit& limit) {
-    Index h = mesh_.out(v);
-    do {
+    for (Index h : mesh_.around(v)) {
       if (mesh_.is_quad(mesh_.face(h)) && limit.is_exceeded(mesh_, h)) {
         const int boundary_edges = mesh_.is_boundary_edge(h) + mesh_.is_boundary_edge(mesh_.prev(h));
         if (try_corner(h, large_angle_cases(), boundary_edges)) return;
       }
-      h = mesh_.rotate_ccw(h);
-    } while (h != mesh_.out(v));
+    }
   }
 
   Mesh& mesh_;
@@ -277,14 +266,13 @@ class Rounds {
 /// A quad's corner over the limit, or kNone.
 Index find_chevron_corner(const Mesh& mesh, Index f, const AngleLimit& limit) {
   if (!mesh.is_live_face(f) || mesh.degree(f) != 4) return kNone;
-  const Index start = mesh.half_edge(f);
-  Index h = start;
-  do {
+  for (Index h : mesh.sides_of(f))
     if (limit.is_exceeded(mesh, h)) return h;
-    h = mesh.next(h);
-  } while (h != start);
   return kNone;
 }
+
+/// Compositions of the thesis, as digits of `composition.hpp`.
+constexpr std::string_view kFill3 = "0105", kFill4 = "0106";
 
 /// Figures 3.6, 3.7: with fill_3 the node where the neighbour is joined keeps one corner, which may be a chevron again;
 /// fill_4 divides it. `dart` is at the chevron's corner.
@@ -297,29 +285,50 @@ bool needs_fill_4(const Mesh& mesh, const Dart& dart, double angle) {
   return here + there > angle;
 }
 
+/// Gets rid of chevrons one by one, each in the first way that makes the mesh there better.
+class EliminatingChevrons {
+ public:
+  EliminatingChevrons(Mesh& mesh, double angle, const SmoothingOptions& smoothing)
+      : mesh_(mesh), angle_(angle), limit_(angle), trial_(mesh, smoothing, std::max(smoothing.iterations, 12)) {}
+
+  void run(const kernel::Budget& budget) {
+    const Index faces = mesh_.face_slots();  // those that a change makes are not looked at again
+    for (Index f = 0; f < faces && !budget.is_spent(); ++f)
+      if (const Index corner = find_chevron_corner(mesh_, f, limit_); corner != kNone) eliminate(f, corner);
+  }
+  std::size_t changes() const { return trial_.changes(); }
+
+ private:
+  void eliminate(Index f, Index corner) {
+    const std::vector<Index> near = nodes_beside(mesh_, f);
+    if (has_fan(mesh_, near)) return;
+    const auto attempt = [&](Dart dart, std::string_view composition, bool mirrored) {
+      const auto is_better = [](double before, double after, int) { return after > 0 && after > before; };
+      return trial_.attempt_at(dart, composition, mirrored, near, is_better);
+    };
+    // Without any composition: moving the node may do.
+    if (mesh_.is_free(mesh_.origin(corner)) && attempt({corner, false}, "", false)) return;
+    // On either side, fill_4 where it is needed and fill_3 elsewhere; then the other one.
+    for (const bool is_fallback : {false, true})
+      for (const auto& [dart, mirrored] : places_at(mesh_, corner)) {
+        const bool takes_fill_4 = needs_fill_4(mesh_, dart, angle_) != is_fallback;
+        if (attempt(dart, takes_fill_4 ? kFill4 : kFill3, mirrored)) return;
+      }
+  }
+
+  Mesh& mesh_;
+  double angle_;
+  AngleLimit limit_;
+  Trial trial_;
+};
+
 }  // namespace
 
 std::size_t eliminate_chevrons(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,
                                const kernel::Budget& budget) {
-  Trial trial(mesh, smoothing, std::max(smoothing.iterations, 12));
-  const auto better = [](double before, double after, int) { return after > 0 && after > before; };
-  const Index faces = mesh.face_slots();  // those that a change makes are not looked at again
-  const AngleLimit limit(options.chevron_angle);
-  for (Index f = 0; f < faces; ++f) {
-    const Index h = find_chevron_corner(mesh, f, limit);
-    if (h == kNone || budget.is_spent()) continue;
-    const std::vector<Index> near = nodes_beside(mesh, f);
-    if (has_fan(mesh, near)) continue;
-    if (mesh.is_free(mesh.origin(h)) && trial.attempt_at({h, false}, "", false, near, better)) continue;
-    [&] {
-      for (const bool fallback : {false, true})
-        for (const auto& [dart, in_mirror] : places_at(mesh, h))
-          if (trial.attempt_at(dart, needs_fill_4(mesh, dart, options.chevron_angle) != fallback ? "0106" : "0105",
-                               in_mirror, near, better))
-            return;
-    }();
-  }
-  return trial.changes();
+  EliminatingChevrons eliminating(mesh, options.chevron_angle, smoothing);
+  eliminating.run(budget);
+  return eliminating.changes();
 }
 
 std::size_t clean_up_connectivity(Mesh& mesh, const CleanupOptions& options, const SmoothingOptions& smoothing,

@@ -40,11 +40,21 @@ report::PictureColour wanted_colour(const Request& request) {
   return *colour;
 }
 
+/// \throws UsageError
+report::Viewpoint wanted_viewpoint(const Request& request) {
+  if (request.from.empty()) return report::Viewpoint::Zero();
+  const auto from = report::find_viewpoint(request.from);
+  if (!from)
+    throw UsageError(fmt::format("--from: '{}' is no direction (x, y, z, -x, -y, -z, or three numbers as in 1,-2,0.5)",
+                                 request.from));
+  return *from;
+}
+
 void add_pictures(const Request& request, const report::Scene& after, const ModelReport& model,
                   const report::Recorder& recorder, std::vector<SideFile>& files) {
   const std::optional<Stage> stage = wanted_stage(request);
-  const report::Drawing drawing =
-      report::draw(stage ? report::at_stage(after, model, recorder, *stage) : after, wanted_colour(request));
+  const report::Drawing drawing = report::draw(stage ? report::at_stage(after, model, recorder, *stage) : after,
+                                               wanted_colour(request), wanted_viewpoint(request));
   if (!request.svg.empty()) files.push_back({request.svg, report::to_svg(drawing)});
   if (!request.pdf.empty()) files.push_back({request.pdf, report::to_pdf(drawing)});
   if (!request.tikz.empty()) files.push_back({request.tikz, report::to_tikz(drawing)});
@@ -67,6 +77,7 @@ report::Wishes what_to_keep(const Request& request) {
   report::Wishes wishes;
   wishes.meshes = request.wants_picture() && wanted_stage(request).has_value();
   wanted_colour(request);
+  wanted_viewpoint(request);
   wishes.figures = !request.stats.empty() || !request.report.empty() || wishes.meshes;
   wishes.films = !request.film.empty();
   return wishes;
@@ -75,12 +86,13 @@ report::Wishes what_to_keep(const Request& request) {
 std::vector<SideFile> make_side_files(const Request& request, const report::Scene& before, const ModelReport& model,
                                       const report::Recorder& recorder, const report::RunFacts& facts) {
   std::vector<SideFile> files;
+  const report::Viewpoint from = wanted_viewpoint(request);
   if (!request.stats.empty()) files.push_back({request.stats, report::stats_json(model, recorder, facts)});
-  if (!request.film.empty()) files.push_back({request.film, report::film_page(model, recorder, facts)});
+  if (!request.film.empty()) files.push_back({request.film, report::film_page(model, recorder, facts, from)});
   if (request.report.empty() && !request.wants_picture()) return files;
   const report::Scene after = read_scene();
   if (!request.report.empty())
-    files.push_back({request.report, report::report_page(before, after, model, recorder, facts)});
+    files.push_back({request.report, report::report_page(before, after, model, recorder, facts, from)});
   if (request.wants_picture()) add_pictures(request, after, model, recorder, files);
   return files;
 }

@@ -19,10 +19,10 @@ namespace qmorph::cli {
 /// Those that are asked for: the option and the path.
 std::vector<std::pair<std::string, std::string>> side_files(const Request& request);
 
-/// What has to be recorded for them. \throws UsageError for a stage or a colour that there is not
+/// What has to be recorded for them. \throws UsageError for an unknown stage or colour
 report::Wishes what_to_keep(const Request& request);
 
-/// A file besides the mesh, and what is to stand in it.
+/// A file besides the mesh, and its content.
 struct SideFile {
   std::string path, text;
 };

@@ -36,7 +36,7 @@ std::string unused_script() {
   return (std::filesystem::current_path(error) / name).string();
 }
 
-/// Whether writing makes the model another one.
+/// Whether writing changes the model.
 bool changes_the_model(const Request& request) {
   return request.dimension == 3 || request.order_chosen || request.partitions > 0 || request.orient ||
          !request.consumer.empty();
@@ -115,7 +115,7 @@ const Converted& Document::convert(const Request& request, double size_factor, O
   const auto start = std::chrono::steady_clock::now();
   Converted result;
   try {
-    const adapter::ScopedOption quiet("General.Verbosity", 2);  // what there is to say, we say
+    const adapter::ScopedOption quiet("General.Verbosity", 2);  // we report what there is to report
     if (request.all_quad) result.even = session::make_even(request.surfaces, request.keep_curves);
     when_meshed(options);
     result.model = request.cleanup_only ? session::improve_quads(options, request.surfaces)

@@ -38,8 +38,7 @@ class Document {
 
   /// Meshes what has no mesh, and has it converted. What was converted before goes back to triangles first.
   /// \throws Error, Cancelled: the model has its triangles then
-  /// \param when_meshed may have the last word on the options; no event of the window is handled between that and the
-  ///        conversion
+  /// \param when_meshed may still change the options; no event of the window is handled between that and the conversion
   const Converted& convert(const Request& request, double size_factor, Options options,
                            const std::function<void(Options&)>& when_meshed);
   /// The result of the last conversion, as long as the model has it.

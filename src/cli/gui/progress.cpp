@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds kBetween{100};
 }  // namespace
 
 Progress WindowProgress::operator()(std::string_view stage, double share) {
-  // Only the main thread may speak to the window; it works with the others.
+  // Only the main thread may talk to the window; it takes part in the work like the others.
   if (answer_ == Progress::cancel || std::this_thread::get_id() != main_ || Clock::now() < next_) return answer_;
   window_.status(fmt::format("{}: {:.0f} %", stage, 100 * share));
   window_.turn(0);

@@ -18,7 +18,7 @@ ErrorStream::Buffer::int_type ErrorStream::Buffer::overflow(int_type c) {
   if (c == traits_type::eof()) return traits_type::not_eof(c);
   const char character = traits_type::to_char_type(c);
   const bool is_control = static_cast<unsigned char>(character) < ' ' && std::string_view("\n\r\t").find(character) > 2;
-  line_ += is_control ? '?' : character;  // bytes of a file that is none of what it says
+  line_ += is_control ? '?' : character;  // bytes of a file that is not what its name says
   if (line_.back() == '\n') sync();
   return c;
 }

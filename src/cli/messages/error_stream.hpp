@@ -10,8 +10,8 @@
 
 namespace qmorph::cli {
 
-/// A stream on its way to another one. Names of temporary files are told as what they stand for, also where Gmsh says
-/// them.
+/// A stream on its way to another one. Names of temporary files are replaced by what they stand for, in Gmsh's
+/// messages, too.
 class ErrorStream : public std::ostream {
  public:
   explicit ErrorStream(std::ostream& target) : std::ostream(&buffer_), buffer_(target) {}

@@ -29,7 +29,7 @@ void print_outcome(const ModelReport& model, const std::string& output, std::ost
     err << "qmorph: nothing to convert: all surfaces are quads already; " << output << " has them\n";
 }
 
-/// What parity forces is no failure, and there is something to do about it.
+/// What parity forces is not a failure, and the user can do something about it.
 void print_triangles(const Request& request, const ModelReport& model, std::ostream& err) {
   if (request.all_quad || request.cleanup_only) return;
   std::size_t triangles = 0;
@@ -46,7 +46,7 @@ void print_triangles(const Request& request, const ModelReport& model, std::ostr
         triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "));
 }
 
-/// Gmsh may say one thing about each of a million nodes.
+/// Gmsh may repeat a message for each of a million nodes.
 void print_once(std::string_view prefix, const std::vector<std::string>& lines, std::ostream& err) {
   std::map<std::string, std::size_t> count;
   for (const std::string& line : lines) ++count[line];

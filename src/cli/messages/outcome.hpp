@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What is told of a run: what came out, what is left, what made no difference.
+/// What is reported about a run: the result, what was left, what made no difference.
 
 #include <iosfwd>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A line on a terminal that says how far it is.
+/// A line on a terminal that shows the progress.
 
 #include <chrono>
 #include <ostream>

@@ -12,7 +12,7 @@ struct Process {
   bool err_is_terminal = false;
   /// Where it says what it does, for the process that waits; this one ends with the run. May be null.
   Slate* slate = nullptr;
-  /// Where Gmsh puts what it would put beside the user's own files; empty if nobody has seen to that.
+  /// Where Gmsh puts what it would put beside the user's own files; empty if no place was made.
   std::string gmsh_home{};
 };
 

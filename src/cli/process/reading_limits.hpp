@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// For files that nobody but Gmsh looks into.
+/// For files that only Gmsh looks into.
 
 #include <sys/resource.h>
 
@@ -10,8 +10,9 @@
 namespace qmorph::cli {
 
 /// While it lives, this process may take no more time and memory than reading meshes of this size needs: Gmsh's readers
-/// believe in what a broken file says of itself, or look for ever for what it does not have. Beyond, the process dies,
-/// or there is not enough memory. No limit where one of the files is a script or a geometry, which may take as long as
+/// trust what a broken file says about itself, or search for ever for what it does not have. Beyond the limit the
+/// process dies, or runs out of memory. No limit where one of the files is a script or a geometry, which may take as
+/// long as
 /// it likes.
 class ReadingLimits {
  public:

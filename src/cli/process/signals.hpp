@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Signals that end the program, which are not to end it before it has tidied up.
+/// Signals that end the program, held back until it has tidied up.
 
 #include <csignal>
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 20;
 
-/// More than anybody writes; what does not end has to end somewhere.
+/// More than anybody sends; a stream without end has to be cut off somewhere.
 constexpr std::size_t kLongestScript = std::size_t{1} << 28;
 
 /// Room that is left to others in the directory for temporary files.

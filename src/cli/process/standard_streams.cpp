@@ -20,7 +20,7 @@
 namespace qmorph::cli {
 namespace {
 
-/// So that what is temporary is removed when the reader goes away.
+/// So that temporary files are removed when the reader goes away.
 class NoPipeSignal {
  public:
   NoPipeSignal() : before_(std::signal(SIGPIPE, SIG_IGN)) {}

@@ -10,8 +10,8 @@ namespace qmorph::cli {
 /// Opens those that the caller has closed, so that no file of ours gets their number. Writing to the output then fails.
 void hold_standard_streams();
 
-/// OpenCASCADE speaks on the standard output, which is ours. For the time of this object's life that is the standard
-/// error.
+/// OpenCASCADE prints on the standard output, which is ours. While this object lives, the standard output is the
+/// standard error.
 class StdoutAsStderr {
  public:
   StdoutAsStderr();

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <string>
 
+#include "cli/request/value.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::cli {
@@ -15,11 +15,10 @@ namespace {
 void apply(const std::string& setting, Options& options) {
   const std::size_t equals = setting.find('=');
   const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
-  char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  if (value.empty() || *end) throw UsageError(fmt::format("--set {}: it takes NAME=NUMBER", setting));
+  const auto number = to_number(value);
+  if (!number) throw UsageError(fmt::format("--set {}: it takes NAME=NUMBER", setting));
   try {
-    set_option(options, setting.substr(0, equals), number);
+    set_option(options, setting.substr(0, equals), *number);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--set: {}", error.what()));
   }
@@ -30,7 +29,7 @@ void apply(const std::string& setting, Options& options) {
 Options engine_options(const Request& request) {
   Options options;
   options.threads = request.threads;
-  options.layers = request.layers == "on";
+  options.layers = request.layers;
   if (request.crease) set_option(options, "crease_angle", *request.crease);
   if (request.smoothing == "thesis")
     options.smoothing.method = SmoothingMethod::thesis;

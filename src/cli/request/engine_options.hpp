@@ -6,7 +6,7 @@
 
 namespace qmorph::cli {
 
-/// What the request says to the engine. \throws UsageError for names and values that there are not
+/// The engine's options for the request. \throws UsageError for unknown names and values
 Options engine_options(const Request& request);
 
 }  // namespace qmorph::cli

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 
+#include "cli/request/value.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph::cli {
@@ -129,15 +129,15 @@ constexpr std::array<std::string_view, 21> kAlgorithms = {
     "frontal", "bamg",      "delquad", "pack",  "quadqs",  "frontopt2d", "initial2d",
     "del3d",   "front3d",   "netgen",  "mmg3d", "rtree3d", "hxt",        "initial3d"};
 
-/// What means something only where Gmsh makes elements.
+/// What matters only where Gmsh makes elements.
 constexpr std::array<std::string_view, 17> kMeshing = {
     "clmin",    "clmax",   "clscale",        "clextend",       "clcurv",           "algo",
     "smooth",   "epslc1d", "swapangle",      "rand",           "aniso_max",        "smooth_ratio",
     "edgelmin", "bgm",     "Mesh.Algorithm", "Mesh.Smoothing", "Mesh.RandomFactor"};
 
 bool is_number(const std::string& text) {
-  double value = 0;
-  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+  const auto number = to_number(text);
+  return number && std::isfinite(*number);
 }
 
 }  // namespace

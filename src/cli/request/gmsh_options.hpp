@@ -24,7 +24,7 @@ struct GmshOptionRow {
 /// \return null if the gmsh program has no such option
 const GmshOptionRow* find_gmsh_option(std::string_view name);
 
-/// Checks what Gmsh would only complain about, or take for 0 without a word.
+/// Checks values that Gmsh would only complain about, or silently take for 0.
 /// \throws UsageError
 void check_gmsh_values(const GmshOptionRow& row, const std::vector<std::string>& values);
 

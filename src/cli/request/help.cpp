@@ -51,8 +51,7 @@ std::string wrapped(const std::string& words) {
 
 std::string help_text() {
   std::string text(kHelpHead);
-  for (const Row& row : our_options())
-    if (!row.help.empty()) text += fmt::format("  {:<20} {}\n", row.spelling, row.help);
+  for (const OurOption& option : our_options()) text += fmt::format("  {:<20} {}\n", option.spelling, option.help);
   text += "\nOf gmsh, with the same meaning; other options of gmsh are refused by name:\n";
   return text + wrapped(passed_gmsh_options()) + std::string(kHelpTail);
 }

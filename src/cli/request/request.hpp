@@ -24,6 +24,7 @@ struct Request {
   std::string depfile;                         ///< for a rule of make
   std::string svg, pdf, tikz;                  ///< files for pictures
   std::string stage = "final", colour = "sj";  ///< of the pictures
+  std::string from;                            ///< from where pictures and pages are seen, or empty
   std::vector<std::string> merged;             ///< further files, merged with the input
   std::string consumer;                        ///< of --for
   std::string elements;                        ///< family of a deck's surface elements; empty: the mesh decides
@@ -31,7 +32,7 @@ struct Request {
   std::string against;  ///< file with the mesh that --check measures distances to, or empty
   std::vector<int> surfaces;
   std::string smoothing;              ///< the method, or empty
-  std::string layers = "on";          ///< or "off"
+  bool layers = true;                 ///< rows of triangles along walls stay rows
   std::optional<double> crease;       ///< angle in degrees
   std::vector<std::string> settings;  ///< NAME=VALUE for set_option()
   int verbosity = 0;

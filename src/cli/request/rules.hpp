@@ -2,15 +2,15 @@
 #pragma once
 /// Which options go together.
 
-#include <functional>
-#include <string>
+#include <span>
+#include <string_view>
 
 #include "cli/request/request.hpp"
 
 namespace qmorph::cli {
 
-/// \param given whether an option is on the command line, also where its value is the default
+/// \param given the options on the command line ("-o", "--layers"), also those whose value is the default
 /// \throws UsageError for options that contradict each other, or that would have no effect
-void check_combination(const Request& request, const std::function<bool(const std::string& option)>& given);
+void check_combination(const Request& request, std::span<const std::string_view> given);
 
 }  // namespace qmorph::cli

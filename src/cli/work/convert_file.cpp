@@ -101,11 +101,11 @@ void Conversion::make_quads() {
   options_.progress = nullptr;
 }
 
-/// And what will not, which is told.
+/// Warns of what will not be.
 void Conversion::see_what_will_be_written() {
   const adapter::MshWish wish{request_.msh_version, request_.binary};
   const std::vector<std::string> unwritten = adapter::describe_unwritten(plan_, opened_, wish);
-  // Volumes stand on all surfaces.
+  // Volumes need all surfaces.
   if (request_.dimension < 3) keep_written(adapter::find_unwritten_surfaces(plan_, opened_, wish), plan_.name, model_);
   as_it_was_ = is_as_it_was(request_, plan_, opened_, model_);
   if (as_it_was_) return even_.reset();  // OUT has the curves of IN

@@ -15,7 +15,7 @@ void begin_session(const Call& call, adapter::Session& session);
 /// Opens the input and what is merged with it as --check has it: what is there, and no more. \throws InputError
 adapter::OpenedModel open_as_it_is(const Call& call);
 
-/// For a conversion: meshed, with Gmsh's options, the order of elements, and what will be ignored told.
+/// For a conversion: meshed, with Gmsh's options and the order of elements; warns of what will be ignored.
 adapter::OpenedModel open_for_conversion(const Call& call, const adapter::OutputPlan& plan);
 
 }  // namespace qmorph::cli

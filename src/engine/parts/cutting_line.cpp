@@ -6,16 +6,15 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/cut_cost.hpp"
+
 namespace qmorph {
 namespace {
 
 constexpr int kDirections = 12;
 constexpr double kShifts[] = {0, -0.04, 0.04, -0.08, 0.08};  ///< of the share
-/// Each end of the line inside costs this share of the length of all points, and so much more the flatter it meets the
-/// outline: a wedge is no place for quads.
-constexpr double kEndCost = 0.02, kFlatCost = 0.5;
-constexpr double kSquare = 0.9;  ///< a sine from which on an end is no wedge
 
+/// The length of the line inside the outline, and its ends. `extent`: of all points, across the line.
 double cost_of(const Line& line, std::span<const std::pair<Vec2, Vec2>> outline, double extent) {
   const Vec2 along = left_of(line.normal);
   std::vector<double> ends;
@@ -26,7 +25,7 @@ double cost_of(const Line& line, std::span<const std::pair<Vec2, Vec2>> outline,
     const Vec2 edge = b - a;
     ends.push_back(along.dot(a + edge * (da / (da - db))));
     const double sine = std::abs(da - db) / edge.norm();
-    cost += extent * (kEndCost + kFlatCost * std::max(0.0, kSquare - sine));
+    cost += extent * cost_of_cut_end(sine);
   }
   std::sort(ends.begin(), ends.end());
   for (std::size_t i = 0; i + 1 < ends.size(); i += 2) cost += ends[i + 1] - ends[i];

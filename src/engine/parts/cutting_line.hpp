@@ -14,8 +14,8 @@ struct Line {
   double distance(const Vec2& p) const { return normal.dot(p) - offset; }
 };
 
-/// The best of some lines that leave about this share of the points behind them: short inside of the outline, crossing
-/// it seldom and squarely. `outline` has the segments of the outline in any order.
+/// The best of some lines that leave about this share of the points behind them: short inside the outline, crossing it
+/// rarely and squarely. `outline` has the segments of the outline in any order.
 Line choose_cutting_line(std::span<const Vec2> points, std::span<const std::pair<Vec2, Vec2>> outline, double share);
 
 }  // namespace qmorph

@@ -23,16 +23,14 @@ bool has_grid_outline(const kernel::Mesh& mesh) {
   std::vector<std::size_t> corners;  // steps along the loop
   std::size_t steps = 0;
   if (first == kNone) return false;
-  Index h = mesh.out(first);
-  do {
+  for (Index h : mesh.loop_from(mesh.out(first))) {
     const double angle = ccw_angle(-mesh.vector(mesh.prev(h)), mesh.vector(h));
     if (angle < kCorner)
       corners.push_back(steps);
     else if (angle < kSide || angle > 2 * std::numbers::pi - kSide)
       return false;
     ++steps;
-    h = mesh.next(h);
-  } while (h != mesh.out(first));
+  }
   return steps == boundary_nodes && corners.size() == 4 && corners[1] - corners[0] == corners[3] - corners[2] &&
          corners[2] - corners[1] == steps - (corners[3] - corners[0]);
 }

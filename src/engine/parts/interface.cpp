@@ -24,11 +24,8 @@ constexpr int kHalvings = 3;
 Vec2 straight_position(const Mesh& mesh, const Division& division, Index v) {
   const Vec2& p = mesh.point(v);
   std::vector<Vec2> ends;
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v))
     if (division.is_interface(mesh, h)) ends.push_back(mesh.point(mesh.target(h)));
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
   double least = 1;
   Vec2 middle = p;
   for (std::size_t i = 0; i < ends.size(); ++i)
@@ -55,11 +52,7 @@ std::vector<Index> nodes_around(const Mesh& mesh, const std::vector<Index>& node
   std::vector<Index> around = nodes;
   for (int ring = 0; ring < kRings; ++ring) {
     for (std::size_t i = 0, count = around.size(); i < count; ++i) {
-      Index h = mesh.out(around[i]);
-      do {
-        around.push_back(mesh.target(h));
-        h = mesh.rotate_ccw(h);
-      } while (h != mesh.out(around[i]));
+      for (Index h : mesh.around(around[i])) around.push_back(mesh.target(h));
     }
     sort_unique(around);
   }
@@ -68,23 +61,20 @@ std::vector<Index> nodes_around(const Mesh& mesh, const std::vector<Index>& node
 }
 
 bool is_on_interface(const Mesh& mesh, const Division& division, Index v) {
-  Index h = mesh.out(v);
-  do {
+  for (Index h : mesh.around(v))
     if (division.is_interface(mesh, h)) return true;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
   return false;
 }
 
 /// Two triangles become four; the new ones belong to the parts of the old. Returns the new node.
 Index split_interface_edge(Mesh& mesh, Division& division, Index h) {
   const Index m = mesh.split_edge(h, 0.5 * (mesh.point(mesh.origin(h)) + mesh.point(mesh.target(h))));
-  for (Index side : {h, Mesh::twin(h)}) {
+  for (Index side : Mesh::halves_of(h)) {
     const Index from_m = mesh.origin(side) == m ? side : mesh.next(side);
     const Index part = division.part[mesh.face(from_m)];
     const Index d = mesh.split_face(from_m, mesh.next(mesh.next(from_m)));
     division.part.resize(mesh.face_slots());
-    for (Index half : {d, Mesh::twin(d)}) division.part[mesh.face(half)] = part;
+    for (Index half : Mesh::halves_of(d)) division.part[mesh.face(half)] = part;
   }
   return m;
 }
@@ -95,13 +85,11 @@ std::vector<Index> along_interfaces(const Mesh& mesh, const Division& division, 
   std::vector<Index> nodes{v};
   for (int step = 0; step < kSteps; ++step)
     for (std::size_t i = 0, count = nodes.size(); i < count; ++i) {
-      Index h = mesh.out(nodes[i]);
-      do {
+      for (Index h : mesh.around(nodes[i])) {
         const Index u = mesh.target(h);
         if (division.is_interface(mesh, h) && std::find(nodes.begin(), nodes.end(), u) == nodes.end())
           nodes.push_back(u);
-        h = mesh.rotate_ccw(h);
-      } while (h != mesh.out(nodes[i]));
+      }
     }
   std::sort(nodes.begin(), nodes.end());
   return nodes;

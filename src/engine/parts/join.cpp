@@ -101,11 +101,8 @@ Whole::Whole(const Mesh& mesh, const Division& division) {
     if (mesh.is_live_vertex(v) && mesh.is_fixed(v)) fixed.push_back(v);
   }
   for (Index v : division.interface) {
-    Index h = mesh.out(v);
-    do {
+    for (Index h : mesh.around(v))
       if (v < mesh.target(h) && division.is_interface(mesh, h)) interface_edges.emplace_back(v, mesh.target(h));
-      h = mesh.rotate_ccw(h);
-    } while (h != mesh.out(v));
   }
   std::sort(interface_edges.begin(), interface_edges.end());
 }

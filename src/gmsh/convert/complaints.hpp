@@ -14,8 +14,8 @@ namespace qmorph::adapter {
 /// Quads of the input stay as they are, and what comes out must not have an inverted element. \throws SurfaceError
 void refuse_bad_quads(const SurfaceMesh& surface);
 
-/// Nodes in one place that are not joined, and surfaces that lie on each other: such a mesh looks right and falls
-/// apart, or lies twice in one place.
+/// Coincident nodes that are not joined, and surfaces that lie on each other: such a mesh looks right, but it falls
+/// apart, or covers the same place twice.
 void warn_of_loose_parts(const ClassifiedMesh& model, std::vector<std::string>& warnings);
 
 /// If quads are much longer or shorter than the triangles were; empty if not.

@@ -15,7 +15,7 @@
 namespace qmorph::adapter {
 namespace {
 
-/// Takes middle nodes of a part's elements onto what its triangles stand for.
+/// Moves middle nodes of a part's elements onto the geometry that its triangles stand for.
 class Curving {
  public:
   Curving(const SurfacePart& part, const QuadMesh& mesh, const Lander& lander, CurvedElements& elements)

@@ -15,7 +15,7 @@
 namespace qmorph::adapter {
 namespace {
 
-/// Means of scaled Jacobians that differ by no more are the same.
+/// Means of scaled Jacobians that differ by no more than this count as equal.
 constexpr double kSameMean = 1e-9;
 
 }  // namespace

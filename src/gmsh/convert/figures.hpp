@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What surfaces are measured by, one by one and together.
+/// The figures of surfaces, one by one and together.
 
 #include "gmsh/convert/replace.hpp"
 #include "gmsh/model/patches.hpp"
@@ -14,7 +14,7 @@ class Figures {
  public:
   /// Of a result that has been checked: elements, quality, what makes quads poor, sizes.
   void add_result(const ConvertedSurface& converted, SurfaceReport& report);
-  /// Quads that were to be improved are not to get worse, and where they have to, that is said. \pre add_result
+  /// Warns where quads that were to be improved had to become worse. \pre add_result
   void compare_with_input(const ConvertedSurface& converted, SurfaceReport& report);
   /// Of a surface that stays as it is. \param before to compare it with; may be null
   void add_as_it_is(const SurfaceMesh& surface, const Patch* before, SurfaceReport& report);

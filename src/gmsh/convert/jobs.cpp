@@ -58,7 +58,7 @@ class TagObserver : public Observer {
   std::vector<int> tags_;
 };
 
-/// What the engine says of rows, in tags of the model.
+/// Translates what the engine says about rows into tags of the model.
 SurfaceError in_tags(const SurfaceError& error, const ModelMesh& mesh, const SurfacePart& part) {
   ErrorDetails details = error.details();
   if (details.subject && details.subject->kind == ErrorSubject::Kind::node) {

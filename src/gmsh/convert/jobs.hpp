@@ -13,7 +13,8 @@
 
 namespace qmorph::adapter {
 
-/// What is worked on as one: a surface, or surfaces that are periodic with one another, of which the first is converted
+/// What is worked on as a unit: a surface, or surfaces that are periodic with one another, of which the first is
+/// converted
 /// and the others are its images.
 struct Job {
   const PeriodicFamily* family = nullptr;

@@ -19,7 +19,7 @@
 namespace qmorph::adapter {
 namespace {
 
-/// Gmsh looks nodes and elements up by an int: tags above would be taken for others, or for none.
+/// Gmsh looks nodes and elements up by an int: larger tags would be taken for others, or for none.
 constexpr std::size_t kMaxTag = std::numeric_limits<int>::max();
 
 /// Tags of what goes, in order; then tags above all others; where there is no more room, those that nothing has.

@@ -100,7 +100,7 @@ Job Run::begin_alone(std::uint32_t entity) {
   return job;
 }
 
-/// All of a family, or none.
+/// Either all surfaces of a family are converted or none.
 Job Run::begin_family(const PeriodicFamily& family, const std::vector<std::uint32_t>& entities) {
   StopWatch watch;
   Job job{.family = &family};
@@ -251,7 +251,7 @@ void Run::look_at(std::uint32_t entity, SurfaceReport& report) {
   figures_.add_as_it_is(surface, before == before_.end() ? nullptr : &before->second, report);
 }
 
-/// That no figure tells.
+/// What no figure shows.
 void Run::find_faults(const SurfaceMesh& surface, SurfaceReport& report) const {
   const EntityMesh& mesh = model_.mesh.entities[surface.entity];
   const std::string where = order_of(mesh) > 1 ? find_bent(read_curved_elements(model_.mesh, mesh)) : "";

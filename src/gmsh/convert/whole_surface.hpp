@@ -9,7 +9,7 @@ namespace qmorph::adapter {
 /// All parts of a surface as one patch, without constraints.
 Patch whole_surface(const SurfaceMesh& surface);
 
-/// The elements of a patch as a result of which nobody knows where its nodes come from.
+/// The elements of a patch as a result with nodes of unknown origin.
 QuadMesh as_result(const Patch& patch);
 
 }  // namespace qmorph::adapter

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Boundaries that would cross themselves as they are to be divided. Gmsh cannot mesh inside, and versions from 4.9 on may
-/// take for ever to see it.
+/// Boundaries that would cross themselves as they are to be divided. Gmsh cannot mesh inside, and versions from 4.9 on
+/// may never stop trying.
 
 #include <vector>
 
@@ -13,7 +13,8 @@ namespace qmorph::adapter {
 /// itself with nodes in one place and not with nodes in another.
 bool folds_back(const DividedCurve& curve, int segments);
 
-/// Whether the boundary of a planar surface crosses or touches itself; `segments` by curve of the model. Cost: the square
+/// Whether the boundary of a planar surface crosses or touches itself; `segments` by curve of the model. Cost: the
+/// square
 /// of the segments; beyond 3000 the question stays open.
 bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, const std::vector<int>& segments);
 

@@ -71,7 +71,7 @@ void add_periodic(CurveModel& model) {
 }
 
 /// What is extruded in layers has sides whose number does not depend on the size, and the same number on the other two,
-/// the one of which is a copy of the other. No call tells.
+/// one of which is a copy of the other. No call of Gmsh's API tells.
 void add_extruded(CurveModel& model) {
   for (const BoundedSurface& surface : model.surfaces) {
     const std::vector<Index>& sides = surface.boundary;
@@ -90,7 +90,7 @@ void add_extruded(CurveModel& model) {
 }  // namespace
 
 double DividedCurve::wish() const {
-  // Gmsh rounds up, almost. Half of that is taken back, so that its own number is the nearest.
+  // Gmsh nearly always rounds up. Half a segment is taken back, so that its own number is the nearest.
   const double exact = std::clamp((finer - 0.5) / kFiner, segments - 0.95, double(segments));
   return (exact + segments) / 2;
 }

@@ -55,7 +55,7 @@ int count_segments(int curve);
 std::vector<std::pair<double, std::size_t>> nodes_along(int curve);
 
 /// Has Gmsh divide all curves, twice, the second time as wished. For the surfaces with these tags.
-/// Nothing if there is a curve of them that cannot be understood.
+/// Nothing if one of their curves cannot be understood.
 std::optional<CurveModel> divide_as_wished(const std::vector<int>& surfaces);
 
 }  // namespace qmorph::adapter

@@ -26,20 +26,23 @@ struct DivisionReport {
   std::map<int, int> segments;    ///< of each curve
 };
 
-/// Has Gmsh mesh the curves of the current model: with its own sizes and numbers, but for the least change that gives each
-/// surface an even boundary and curves that face each other across a band the same numbers. Where a curve gets another
+/// Has Gmsh mesh the curves of the current model: with its own sizes and numbers, apart from the smallest change that
+/// gives each surface an even boundary and curves that face each other across a band the same numbers. Where a curve
+/// gets another
 /// number than Gmsh gave it, its nodes still lie as its sizes are.
 /// \pre within run_logged()
 DivisionReport divide_curves(const DivisionTask& task);
 
-/// Curves that have another number of segments now, and that number: where the curves are too coarse for a surface, Gmsh
+/// Curves that have another number of segments now, and that number: where the curves are too coarse for a surface,
+/// Gmsh
 /// divides some further.
 std::map<int, int> find_divided_further(const DivisionReport& report);
 
 /// By the line elements of its curves.
 bool has_odd_boundary(int surface);
 
-/// Or Gmsh would keep to the numbers when it meshes the curves again. Those of extruded curves it keeps: it would forget
+/// Or Gmsh would keep to the numbers when it meshes the curves again. Those of extruded curves it keeps: it would
+/// forget
 /// that they are.
 void forget_division(const DivisionReport& report);
 

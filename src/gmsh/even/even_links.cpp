@@ -152,6 +152,97 @@ void make_link(const std::vector<Candidate>& candidates, const std::vector<Index
   graph.edges.push_back(std::move(edges));
 }
 
+/// Numbers the regions, and finds out which edges of their boundaries may get a node.
+class FindingRegions {
+ public:
+  FindingRegions(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
+                 const std::set<int>& keep_curves)
+      : mesh_(mesh),
+        use_(use),
+        keep_curves_(keep_curves),
+        fixed_(mesh, use),
+        lines_(sorted_lines(mesh)),
+        sides_(sides_of_surfaces(mesh, surfaces, triangles_)),
+        joined_(triangles_),
+        number_(triangles_, kNone) {}
+
+  RegionGraph run() {
+    for_each_edge(sides_, [&](std::span<const SurfaceSide> edge) {
+      if (is_inside(edge)) joined_.unite(edge[0].triangle, edge[1].triangle);
+    });
+    std::vector<Candidate> candidates;
+    for_each_edge(sides_, [&](std::span<const SurfaceSide> edge) {
+      if (is_inside(edge)) return;
+      Candidate candidate = count_in_regions(edge);
+      if (may_split(edge, candidate)) candidates.push_back(std::move(candidate));
+    });
+    Images images(candidates);
+    for (const PeriodicLink& link : read_periodic_links(mesh_, 1)) images.join(mesh_, link);
+    for (const std::vector<Index>& group : images.groups()) make_link(candidates, group, graph_);
+    return std::move(graph_);
+  }
+
+ private:
+  /// Between two triangles of one region.
+  bool is_inside(std::span<const SurfaceSide> edge) const {
+    const SurfaceSide &s = edge.front(), &t = edge.back();
+    return edge.size() == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
+           !fixed_.contains(s.low, s.high);
+  }
+
+  Index region_of(const SurfaceSide& side) {
+    Index& region = number_[joined_.root(side.triangle)];
+    if (region == kNone) {
+      region = Index(graph_.odd.size());
+      graph_.odd.push_back(false);
+      graph_.surface.push_back(side.surface);
+    }
+    return region;
+  }
+
+  /// An edge of a boundary counts once in the parity of each region beside it.
+  Candidate count_in_regions(std::span<const SurfaceSide> edge) {
+    const Index a = edge[0].low, b = edge[0].high;
+    Candidate candidate{{a, b}, {}, (mesh_.points[a] - mesh_.points[b]).norm(), {}};
+    for (const SurfaceSide& side : edge) {
+      if (side.triangle == kNone) continue;
+      const Index region = region_of(side);
+      candidate.regions.push_back(region);
+      graph_.odd[region] = !graph_.odd[region];
+    }
+    return candidate;
+  }
+
+  /// Notes the curves that the edge is on, too.
+  bool may_split(std::span<const SurfaceSide> edge, Candidate& candidate) const {
+    const auto [a, b] = candidate.edge;
+    const int order = edge[0].order;
+    bool may = edge.size() <= 2 && (use_.volume[a] == kNobody || use_.volume[b] == kNobody);
+    for (const SurfaceSide& side : edge) may = may && side.triangle != kNone && side.order == order;
+    const auto [from, to] = std::equal_range(lines_.begin(), lines_.end(), Line{candidate.edge, 0, 0},
+                                             [](const Line& s, const Line& t) { return s.edge < t.edge; });
+    for (auto line = from; line != to; ++line) {
+      candidate.curves.insert(line->curve);
+      may = may && line->order == order;
+    }
+    if (const std::uint32_t curve = curve_under(mesh_, a, b); curve != kNobody)
+      candidate.curves.insert(mesh_.entities[curve].tag);
+    for (int curve : candidate.curves) may = may && !keep_curves_.count(curve);
+    return may;
+  }
+
+  const ModelMesh& mesh_;
+  const NodeUse& use_;
+  const std::set<int>& keep_curves_;
+  const FixedEdges fixed_;
+  const std::vector<Line> lines_;
+  Index triangles_ = 0;
+  const std::vector<SurfaceSide> sides_;
+  parity::Sets joined_;        ///< of triangles that nothing separates
+  std::vector<Index> number_;  ///< of a region, by the root of its triangles
+  RegionGraph graph_;
+};
+
 }  // namespace
 
 std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b) {
@@ -162,59 +253,7 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b) {
 
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves) {
-  Index triangles = 0;
-  const std::vector<SurfaceSide> sides = sides_of_surfaces(mesh, surfaces, triangles);
-  const FixedEdges fixed(mesh, use);
-  const auto is_inside = [&](std::span<const SurfaceSide> edge) {
-    const SurfaceSide &s = edge.front(), &t = edge.back();
-    return edge.size() == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
-           !fixed.contains(s.low, s.high);
-  };
-  parity::Sets regions(triangles);  // triangles that nothing separates
-  for_each_edge(sides, [&](std::span<const SurfaceSide> edge) {
-    if (is_inside(edge)) regions.unite(edge[0].triangle, edge[1].triangle);
-  });
-
-  RegionGraph graph;
-  std::vector<Index> number(triangles, kNone);
-  const auto region_of = [&](const SurfaceSide& side) {
-    Index& region = number[regions.root(side.triangle)];
-    if (region == kNone) {
-      region = Index(graph.odd.size());
-      graph.odd.push_back(false);
-      graph.surface.push_back(side.surface);
-    }
-    return region;
-  };
-  const std::vector<Line> lines = sorted_lines(mesh);
-  std::vector<Candidate> candidates;
-  for_each_edge(sides, [&](std::span<const SurfaceSide> edge) {
-    if (is_inside(edge)) return;
-    bool may_split = edge.size() <= 2;
-    const Index a = edge[0].low, b = edge[0].high;
-    Candidate candidate{{a, b}, {}, (mesh.points[a] - mesh.points[b]).norm(), {}};
-    for (const SurfaceSide& side : edge) {
-      may_split = may_split && side.triangle != kNone && side.order == edge[0].order;
-      if (side.triangle == kNone) continue;
-      candidate.regions.push_back(region_of(side));
-      graph.odd[candidate.regions.back()] = !graph.odd[candidate.regions.back()];
-    }
-    if (use.volume[a] != kNobody && use.volume[b] != kNobody) may_split = false;
-    const auto [from, to] = std::equal_range(lines.begin(), lines.end(), Line{{a, b}, 0, 0},
-                                             [](const Line& s, const Line& t) { return s.edge < t.edge; });
-    for (auto line = from; line != to; ++line) {
-      candidate.curves.insert(line->curve);
-      may_split = may_split && line->order == edge[0].order;
-    }
-    if (const std::uint32_t curve = curve_under(mesh, a, b); curve != kNobody)
-      candidate.curves.insert(mesh.entities[curve].tag);
-    for (int curve : candidate.curves) may_split = may_split && !keep_curves.count(curve);
-    if (may_split) candidates.push_back(std::move(candidate));
-  });
-  Images images(candidates);
-  for (const PeriodicLink& link : read_periodic_links(mesh, 1)) images.join(mesh, link);
-  for (const std::vector<Index>& group : images.groups()) make_link(candidates, group, graph);
-  return graph;
+  return FindingRegions(mesh, use, surfaces, keep_curves).run();
 }
 
 }  // namespace qmorph::adapter

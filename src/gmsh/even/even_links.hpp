@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The regions of a model's surfaces as a graph: who is odd, and which edges of the mesh may be split.
+/// The regions of a model's surfaces as a graph: which are odd, and which edges of the mesh may be split.
 
 #include <set>
 #include <vector>
@@ -24,8 +24,8 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b);
 
 /// \param surfaces indices of the surfaces to be converted
 /// \param keep_curves tags of curves that get no node
-/// Edges that are images of one another (periodic curves) get a node together, and count as often. Edges get no node,
-/// besides, if an element beside them is no triangle of these surfaces, if more than two elements or a volume use
+/// Edges that are images of one another (periodic curves) get a node together, and count as often. Nor do edges get a
+/// node if an element beside them is not a triangle of these surfaces, if more than two elements or a volume use
 /// them, if elements of several orders do, or if their images change more than two regions.
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves);

@@ -28,7 +28,7 @@ Vector3d middle_of(const Vector3d& a, const Vector3d& b, const EntityMesh& owner
     ::gmsh::model::getParametrization(1, owner.tag, {chord.x(), chord.y(), chord.z()}, u);
     ::gmsh::model::getValue(1, owner.tag, u, on_curve);
   });
-  // More sagitta than this, and a triangle beside might turn over.
+  // With more sagitta than this a triangle beside the edge might turn over.
   constexpr double kMostSagitta = 0.1;
   if (!log.errors.empty() || on_curve.size() != 3) return chord;
   const Vector3d p(on_curve[0], on_curve[1], on_curve[2]);
@@ -148,55 +148,81 @@ void EdgeSplitter::split_lines(EntityMesh& entity) {
   }
 }
 
-/// Cuts a triangle from the middle of a side to the corner opposite. Nodes are told apart by their places in the
-/// triangle, in steps of half of those between its nodes.
-std::pair<EdgeSplitter::Tags, EdgeSplitter::Tags> EdgeSplitter::cut(const ElementBlock& block, const Tags& triangle,
-                                                                    std::size_t side, std::uint32_t owner) {
+/// Cuts a triangle of any order from the middle of a side to the corner opposite. Nodes of the pieces lie between nodes
+/// of the triangle; they are told apart by their places in it, whole numbers, `steps` from one corner to the next:
+/// twice as many as there are between its own nodes.
+class EdgeSplitter::Cut {
+ public:
+  Cut(EdgeSplitter& splitter, const ElementBlock& block, const Tags& triangle, std::uint32_t owner)
+      : splitter_(splitter),
+        type_(block.type),
+        local_(element_type(block.type).local),
+        triangle_(triangle),
+        owner_(owner),
+        steps_(2 * block.order) {
+    for (std::size_t j = 0; j < triangle.size(); ++j) nodes_[place(j)] = triangle[j];
+  }
+
+  std::pair<Tags, Tags> run(std::size_t side) {
+    const std::size_t next = (side + 1) % 3;
+    const Place from = place(side), to = place(next), opposite = place((side + 2) % 3);
+    const Tags halves = splitter_.nodes_from(triangle_[side], triangle_[next]);
+    for (int i = 0; i <= steps_; ++i) nodes_[between(from, to, i)] = halves[static_cast<std::size_t>(i)];
+    const Place middle = between(from, to, steps_ / 2);
+    std::array<Place, 3> corners = {place(0), place(1), place(2)};
+    corners[next] = middle;
+    const Tags first = piece(corners);
+    return {first, piece({middle, to, opposite})};
+  }
+
+ private:
   using Place = std::array<int, 2>;
-  const ElementType type = element_type(block.type);
-  const int steps = 2 * block.order;
-  const auto place = [&](std::size_t node) {
-    return Place{static_cast<int>(std::lround(type.local[2 * node] * steps)),
-                 static_cast<int>(std::lround(type.local[2 * node + 1] * steps))};
-  };
-  std::map<Place, std::size_t> known;
-  for (std::size_t j = 0; j < triangle.size(); ++j) known[place(j)] = triangle[j];
-  const std::size_t next = (side + 1) % 3;
-  const Place from = place(side), to = place(next);
-  const Tags halves = nodes_from(triangle[side], triangle[next]);
-  for (int i = 0; i <= steps; ++i)
-    known[{from[0] + i * (to[0] - from[0]) / steps, from[1] + i * (to[1] - from[1]) / steps}] =
-        halves[static_cast<std::size_t>(i)];
-  const auto node_at = [&](const Place& at) {
-    const auto [found, is_new] = known.try_emplace(at, 0);
+
+  /// Of a node of the triangle.
+  Place place(std::size_t node) const {
+    return {static_cast<int>(std::lround(local_[2 * node] * steps_)),
+            static_cast<int>(std::lround(local_[2 * node + 1] * steps_))};
+  }
+  Place between(const Place& from, const Place& to, int step) const {
+    return {from[0] + step * (to[0] - from[0]) / steps_, from[1] + step * (to[1] - from[1]) / steps_};
+  }
+
+  /// The node at a place; a new one where there is none yet.
+  std::size_t node_at(const Place& at) {
+    const auto [found, is_new] = nodes_.try_emplace(at, 0);
     if (!is_new) return found->second;
     std::vector<double> functions;
     int components = 0, orientations = 0;
-    ::gmsh::model::mesh::getBasisFunctions(block.type, {at[0] / double(steps), at[1] / double(steps), 0}, "Lagrange",
+    ::gmsh::model::mesh::getBasisFunctions(type_, {at[0] / double(steps_), at[1] / double(steps_), 0}, "Lagrange",
                                            components, functions, orientations);
     Vector3d p = Vector3d::Zero();
-    for (std::size_t j = 0; j < triangle.size(); ++j) p += functions[j] * point(triangle[j]);
-    return found->second = add_node(owner, p);
-  };
-  const auto piece = [&](const std::array<Place, 3>& corners) {
+    for (std::size_t j = 0; j < triangle_.size(); ++j) p += functions[j] * splitter_.point(triangle_[j]);
+    return found->second = splitter_.add_node(owner_, p);
+  }
+
+  /// The nodes of the triangle of the same order that has these corners.
+  Tags piece(const std::array<Place, 3>& corners) {
     Tags nodes;
-    for (std::size_t j = 0; j < triangle.size(); ++j) {
+    for (std::size_t j = 0; j < triangle_.size(); ++j) {
       const Place local = place(j);
       Place at = corners[0];
-      for (std::size_t axis : {0, 1})
-        at[axis] +=
-            ((corners[1][axis] - corners[0][axis]) * local[0] + (corners[2][axis] - corners[0][axis]) * local[1]) /
-            steps;
+      for (std::size_t axis : {0, 1}) {
+        const int along = corners[1][axis] - corners[0][axis], across = corners[2][axis] - corners[0][axis];
+        at[axis] += (along * local[0] + across * local[1]) / steps_;
+      }
       nodes.push_back(node_at(at));
     }
     return nodes;
-  };
-  std::array<Place, 3> corners = {place(0), place(1), place(2)};
-  const Place middle = {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2};
-  corners[next] = middle;
-  const Tags first = piece(corners);
-  return {first, piece({middle, to, place((side + 2) % 3)})};
-}
+  }
+
+  EdgeSplitter& splitter_;
+  const int type_;
+  const std::vector<double> local_;  ///< coordinates of the nodes in the triangle, from 0 to 1
+  const Tags& triangle_;
+  const std::uint32_t owner_;
+  const int steps_;
+  std::map<Place, std::size_t> nodes_;
+};
 
 void EdgeSplitter::split_triangles(std::uint32_t e) {
   for (std::size_t b = 0; b < mesh_.entities[e].blocks.size(); ++b) {
@@ -213,7 +239,7 @@ void EdgeSplitter::split_triangles(std::uint32_t e) {
         const Tags triangle(begin, begin + static_cast<std::ptrdiff_t>(n));
         for (std::size_t k = 0; k < 3; ++k) {
           if (!edges_.count(key(triangle[k], triangle[(k + 1) % 3]))) continue;
-          const auto [first, second] = cut(block, triangle, k, e);
+          const auto [first, second] = Cut(*this, block, triangle, e).run(k);
           std::copy(first.begin(), first.end(), block.nodes.begin() + static_cast<std::ptrdiff_t>(n * t));
           block.nodes.insert(block.nodes.end(), second.begin(), second.end());
           block.tags.push_back(++next_element_);

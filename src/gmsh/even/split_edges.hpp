@@ -42,7 +42,7 @@ class EdgeSplitter {
   Tags nodes_from(std::size_t a, std::size_t b) const;
   void split_lines(EntityMesh& entity);
   void split_triangles(std::uint32_t e);
-  std::pair<Tags, Tags> cut(const ElementBlock& block, const Tags& triangle, std::size_t side, std::uint32_t owner);
+  class Cut;
   std::vector<PeriodicLink> links_of(const std::vector<std::uint32_t>& entities) const;
 
   ModelMesh& mesh_;

@@ -16,9 +16,10 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 
 // Lengths are in edges of the triangle that a point is on.
-/// A node that lies farther from where its parameters are is no node of this geometry.
+/// A node that lies farther from the point at its parameters does not belong to this geometry.
 constexpr double kOnGeometry = 1e-3;
-/// Between a triangle and the surface over it, more is another part of the surface: a circle's chord that turns by 120
+/// If the surface is farther than this from the triangle, it is another part of the surface: a circle's chord that
+/// turns by 120
 /// degrees has 0.29.
 constexpr double kFarthest = 0.3;
 /// A Newton step shorter than that is the last: what it leaves is along the surface, not away from it.

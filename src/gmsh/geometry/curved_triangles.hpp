@@ -13,8 +13,8 @@
 
 namespace qmorph::adapter {
 
-/// The elements of a surface of second or higher order, which say more of its shape than the triangles between their
-/// corners do.
+/// The elements of a surface of second or higher order, which describe its shape better than the triangles between
+/// their corners.
 class CurvedTriangles {
  public:
   /// Nothing for a surface whose elements are flat: curved sides in their plane do not change where they are.

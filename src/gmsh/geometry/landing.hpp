@@ -18,7 +18,7 @@ struct OnInput {
   double chord = 0;              ///< length of what it is on, if that is longer than the triangle's sides
 };
 
-/// The point for it of what the triangles stand for.
+/// The corresponding point of the geometry that the triangles stand for.
 struct Landing {
   Eigen::Vector3d point;
   Eigen::Vector2d parameters = kNoParameters;
@@ -28,7 +28,8 @@ struct Landing {
 /// Brings points of a surface's triangles onto what these stand for.
 using Lander = std::function<std::vector<Landing>(std::span<const OnInput>)>;
 
-/// Of a surface of a geometry, or of one with curved elements; empty where flat triangles are all there is. The mesh must
+/// Of a surface of a geometry, or of one with curved elements; empty where flat triangles are all there is. The mesh
+/// must
 /// outlive it.
 Lander find_lander(const ModelMesh& mesh, std::uint32_t entity);
 

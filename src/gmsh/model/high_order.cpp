@@ -74,7 +74,7 @@ class GivenNodes {
   std::map<Tags, Tags> quads_;
 };
 
-/// Quads of order 2 have 8 nodes if others of the model have, and 9 if nothing speaks against it.
+/// Quads of order 2 have 8 nodes if others of the model have, and 9 otherwise.
 bool wants_incomplete(const ModelMesh& mesh) {
   for (const EntityMesh& entity : mesh.entities)
     if (const ElementBlock* quads = entity.dim == 2 ? entity.polygons(4) : nullptr; quads && quads->order > 1)

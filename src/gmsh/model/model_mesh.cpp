@@ -13,7 +13,7 @@
 namespace qmorph::adapter {
 namespace {
 
-/// An array over tags is worth it while it has at most this many entries for each node.
+/// An array over tags is used if it has at most this many entries per node.
 constexpr std::size_t kDenseFactor = 8;
 
 std::size_t nodes_per_element(const ElementBlock& block) {

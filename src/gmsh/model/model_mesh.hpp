@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// A copy of everything that the current Gmsh model's mesh is made of, and who uses what. Reading all of it once
+/// A copy of everything in the current Gmsh model's mesh, and which entity uses what. Reading all of it once
 /// is cheaper than asking Gmsh again, and it is what is put back where Gmsh has to forget.
 
 #include <Eigen/Core>

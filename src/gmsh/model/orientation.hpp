@@ -10,7 +10,7 @@
 
 namespace qmorph::adapter {
 
-/// What the elements of a surface, seen as a graph over edges, are.
+/// The elements of a surface, seen as a graph over edges.
 struct Orientation {
   std::vector<Index> part;  ///< of each element; parts are numbered in the order of their first element
   std::vector<bool> flip;   ///< elements to turn, always the smaller share of their part

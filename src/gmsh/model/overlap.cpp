@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Edges looked at for one edge of the outline on average. More, and the question stays open.
+/// How many edges are looked at for one edge of the outline, on average. If more are needed, the question stays open.
 constexpr std::size_t kBudget = 2000;
 
 /// A surface, and the plane that it lies in.

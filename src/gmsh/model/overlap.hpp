@@ -16,7 +16,8 @@ struct Overlap {
 
 /// Looks at planar surfaces, those in one plane together. Finds what covers a part of the plane twice where the outline
 /// of the one runs through the other, or through nothing at all; not two sheets with the same outline nodes.
-/// Cost: linear, and the length of the outline times the number of its edges above one another, which a budget limits.
+/// Cost: linear, plus the length of the outline times the number of its edges above one another, which is limited by a
+/// budget.
 std::optional<Overlap> find_overlap(const ModelMesh& mesh);
 
 }  // namespace qmorph::adapter

@@ -18,7 +18,7 @@
 namespace qmorph::adapter {
 namespace {
 
-/// Areas of areas are still numbers below this.
+/// Below this even the square of an area does not overflow.
 constexpr double kLargestCoordinate = 1e75;
 
 std::uint64_t edge_key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }

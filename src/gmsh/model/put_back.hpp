@@ -17,7 +17,7 @@ struct Replacement {
 };
 
 /// Entities that lose and get back their mesh when these get another, themselves among them, ascending: clearing frees
-/// nodes, whoever else points to them, and an entity can be cleared only with all that lies on it.
+/// nodes even if others still point to them, and an entity can be cleared only together with all that lies on it.
 /// \throws InputError if a point or a curve would have to go for the sake of a surface
 std::vector<std::uint32_t> find_cleared(const ModelMesh& mesh, const std::vector<std::uint32_t>& changed);
 

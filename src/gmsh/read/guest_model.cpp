@@ -42,7 +42,7 @@ GuestModel::~GuestModel() {
       if (!std::count(views_.begin(), views_.end(), view)) ::gmsh::view::remove(view);
     ::gmsh::model::remove();
     ::gmsh::model::setCurrent(host_);
-  } catch (...) {  // a destructor has nobody to tell
+  } catch (...) {  // a destructor cannot report it
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace qmorph::adapter {
 
-/// A model of its own, empty and current, for the time of its life. What views a file brings into it go with it.
+/// A separate model, empty and current, for as long as this object lives. Views that a file brings into it go with it.
 class GuestModel {
  public:
   GuestModel();

@@ -17,7 +17,8 @@ namespace qmorph::adapter {
 /// \throws InputError, also if nodes of the file are put on an entity of a geometry and are elsewhere
 std::vector<ViewStep> merge_file(const std::string& path);
 
-/// For after the last file. \throws InputError if some surfaces have elements and others, of a geometry, have none or
+/// To be called after the last file. \throws InputError if some surfaces have elements and others, of a geometry, have
+/// none or
 /// have given their numbers to a mesh: they would be lost
 void check_geometry_kept();
 

@@ -39,7 +39,7 @@ struct Flags {
   std::set<int> recombined, transfinite;
 };
 
-/// No call of 4.8 tells, but the model written as a script does. It does not have facets.
+/// No call of Gmsh 4.8 tells, but the model written as a script does. It does not have facets.
 Flags read_flags() {
   const ScratchFile script(".geo_unrolled");
   run_logged([&] { ::gmsh::write(script.path()); });
@@ -175,9 +175,9 @@ StageLog generate(const Flags& flags, const DivisionTask* curves, DivisionReport
   });
 }
 
-/// Gmsh's mesher fails at times for one number of segments and not for the next: then the curves that it names keep the
-/// number that Gmsh gives them. Others it divides further as it goes: then that is their number. In the end each curve is
-/// made even by itself.
+/// Gmsh's mesher sometimes fails for one number of segments and not for the next: then the curves that it names keep
+/// the number that Gmsh gives them. It divides others further as it goes: then that becomes their number. As a last
+/// resort each curve is made even by itself.
 StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
                   DivisionReport& division) {
   constexpr int kAttempts = 4;

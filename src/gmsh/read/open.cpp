@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More than this in a file without $Entities, and reading it again for each would take too long.
+/// With more than this in a file without $Entities, reading it again for each would take too long.
 constexpr std::size_t kUndeclaredEntities = 256;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

@@ -12,8 +12,8 @@ namespace qmorph::adapter {
 /// Files that Gmsh has said it reads. Options of a script that silence it silence this.
 std::vector<std::string> files_read(const StageLog& log);
 
-/// These files, and what the scripts among them include, merge or take tables and sizes from by names that stand there
-/// in so many words: in the order in which they come up, each once, those that exist.
+/// These files, and what the scripts among them include, merge or take tables and sizes from, if its name is spelt out
+/// there: in the order in which they come up, each once, if they exist.
 std::vector<std::string> with_named_files(const std::vector<std::string>& files);
 
 /// A rule for make, in the spelling of compilers: the target depends on the files, and a file that is gone is no

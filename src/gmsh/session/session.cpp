@@ -18,7 +18,7 @@
 namespace qmorph::adapter {
 namespace {
 
-/// The log is empty below 2, and 5 is what the gmsh command has.
+/// Below 2 the log stays empty; 5 is the gmsh command's default.
 constexpr double kVerbosity = 5;
 
 constexpr std::size_t kErrorsToShow = 3;
@@ -73,7 +73,7 @@ Session::~Session() {
   if (left_) return;
   try {
     ::gmsh::finalize();
-  } catch (...) {  // a destructor has nobody to tell
+  } catch (...) {  // a destructor cannot report it
   }
 }
 
@@ -130,7 +130,7 @@ QuietErrors::~QuietErrors() {
   try {
     set_option("General.AbortOnError", abort_on_error_);
     set_option("General.Verbosity", verbosity_);
-  } catch (...) {  // a destructor has nobody to tell
+  } catch (...) {  // a destructor cannot report it
   }
 }
 
@@ -164,7 +164,7 @@ ScopedOption::ScopedOption(std::string name, double value) : name_(std::move(nam
 ScopedOption::~ScopedOption() {
   try {
     set_option(name_, before_);
-  } catch (...) {  // a destructor has nobody to tell
+  } catch (...) {  // a destructor cannot report it
   }
 }
 

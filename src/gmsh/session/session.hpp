@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Gmsh's life time, its options and its way of saying that something went wrong.
+/// Gmsh's lifetime, its options and its way of reporting errors.
 
 #include <functional>
 #include <string>
@@ -70,11 +70,11 @@ bool option_exists(const std::string& name);
 void set_option(const std::string& name, double value);
 
 /// Sets the options that this code relies on: no output of Gmsh's own, errors in the log and nowhere else, one thread
-/// (the log is not protected before 4.14, and only with one is Gmsh's mesh always the same). To be said again
-/// after a script has run, since a script may set all of them.
+/// (the log is not protected before 4.14, and only with one is Gmsh's mesh always the same). To be called again after a
+/// script has run, since a script may change all of them.
 void take_control();
 
-/// Sets a numeric option for the time of its life.
+/// Sets a numeric option for as long as this object lives.
 class ScopedOption {
  public:
   ScopedOption(std::string name, double value);

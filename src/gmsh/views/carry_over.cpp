@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 /// Values at the nodes of an element, or nothing if one has none.
 using NodeValues = std::optional<std::vector<const double*>>;
 
-/// Carries one model's data from mesh to mesh. Places are found once for all views.
+/// Carries one model's data from mesh to mesh. Places are looked up once for all views.
 class Carrier {
  public:
   explicit Carrier(const ModelMesh& old) : old_(old), mesh_(read_model_mesh()) {

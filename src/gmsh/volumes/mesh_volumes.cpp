@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -69,7 +70,7 @@ void make_meshable(int volume) {
   for (int group : groups) add_to_group(3, group, {volume});
 }
 
-/// Gmsh's words, with what to do where it is known.
+/// Gmsh's words, and what to do about it where that is known.
 [[noreturn]] void refuse(const StageLog& log) {
   const auto said = [&](const char* words) {
     return std::any_of(log.errors.begin(), log.errors.end(),
@@ -135,7 +136,12 @@ void generate_all(const std::vector<int>& volumes, std::vector<std::string>& war
     generate({}, warnings);
 }
 
-/// What is wrong with a volume, in words.
+/// What is wrong with volumes, in words, and with how many elements and faces.
+struct Faults {
+  std::vector<std::string> told;
+  std::size_t count = 0;
+};
+
 std::optional<std::string> describe_faults(int volume, const Solid& solid, const std::vector<std::size_t>& turned) {
   std::vector<std::string> faults;
   if (!turned.empty())
@@ -151,9 +157,9 @@ std::optional<std::string> describe_faults(int volume, const Solid& solid, const
 }
 
 /// Mends volumes as far as that is possible, and says what is left.
-std::vector<std::string> mend(const std::vector<int>& volumes) {
+Faults mend(const std::vector<int>& volumes) {
   const ModelMesh mesh = read_model_mesh();
-  std::vector<std::string> faults;
+  Faults faults;
   std::deque<EntityMesh> mended;
   std::vector<Replacement> replacements;
   for (int tag : volumes) {
@@ -165,10 +171,37 @@ std::vector<std::string> mend(const std::vector<int>& volumes) {
       mended.push_back(with_solid(mesh, volume, solid));
       replacements.push_back({std::uint32_t(&volume - mesh.entities.data()), &mended.back()});
     }
-    if (std::optional<std::string> fault = describe_faults(tag, solid, turned)) faults.push_back(std::move(*fault));
+    faults.count += turned.size() + solid.loose_faces;
+    if (std::optional<std::string> fault = describe_faults(tag, solid, turned))
+      faults.told.push_back(std::move(*fault));
   }
   if (!replacements.empty()) put_back(mesh, replacements);
   return faults;
+}
+
+/// By how much Gmsh moves nodes before it begins, in sizes of the model: the first one as it is set. Whether elements of
+/// thin corners fit in the end is chance.
+std::vector<double> perturbations() { return {get_option("Mesh.RandomFactor3D"), 1e-9, 1e-7}; }
+
+/// Meshes the volumes, and once more as long as something does not fit; in the end as it was best.
+Faults generate_well(const std::vector<int>& volumes, std::vector<std::string>& warnings) {
+  const auto generate_with = [&](double perturbation) {
+    const ScopedOption moved("Mesh.RandomFactor3D", perturbation);
+    warnings.clear();
+    generate_all(volumes, warnings);
+    for (int volume : volumes)
+      if (!has_elements(3, volume)) throw InputError(fmt::format("Gmsh made no element in volume {}", volume));
+    return order_of_surfaces() <= 1 ? mend(volumes) : Faults{};
+  };
+  Faults now;
+  double best = 0;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (double perturbation : perturbations()) {
+    now = generate_with(perturbation);
+    if (now.count < least) least = now.count, best = perturbation;
+    if (now.count == 0) break;
+  }
+  return now.count == least ? now : generate_with(best);
 }
 
 }  // namespace
@@ -190,10 +223,7 @@ MeshedVolumes mesh_volumes(bool keep_numbers) {
     delaunay.emplace("Mesh.Algorithm3D", kDelaunay);
     meshed.told.push_back("Mesh.Algorithm3D 10 (HXT) makes no volume on quads; 1 (Delaunay) does it instead");
   }
-  generate_all(volumes, meshed.warnings);
-  for (int volume : volumes)
-    if (!has_elements(3, volume)) throw InputError(fmt::format("Gmsh made no element in volume {}", volume));
-  if (order_of_surfaces() <= 1) meshed.bad = mend(volumes);
+  meshed.bad = generate_well(volumes, meshed.warnings).told;
   return meshed;
 }
 

@@ -19,8 +19,9 @@ constexpr int kSweeps = 40;
 constexpr int kRings = 2;
 /// Of the mean edge at a node: the first step of its search, and the last.
 constexpr double kFirstStep = 0.25, kLastStep = 0.004;
-/// The least volume at a corner that is aimed at, in the mean edge's cube: a cube's corner has 1.
-constexpr double kAim = 0.02;
+/// The least volume at a corner that is aimed at, in the mean edge's cube: a cube's corner has 1. Sweep by sweep it gets
+/// smaller, for large elements meet small ones, and slivers.
+constexpr double kAim = 0.02, kNextAim = 0.75;
 
 /// The three edges of an ideal corner as columns, inverted.
 Eigen::Matrix3d inverse_of_ideal(CellShape shape) {
@@ -43,16 +44,15 @@ class Untangler {
   }
 
   std::vector<std::size_t> run(std::vector<std::size_t> turned) {
-    for (int sweep = 0; sweep < kSweeps && !turned.empty(); ++sweep) {
-      const std::vector<Eigen::Vector3d> before = solid_.points;
-      for (Index v : nodes_near(turned)) move(v);
-      std::vector<std::size_t> now = find_turned(solid_);
-      if (now.size() > turned.size()) {
-        solid_.points = before;
-        break;
-      }
-      turned = std::move(now);
+    std::vector<std::size_t> now = turned;
+    std::vector<Eigen::Vector3d> best = solid_.points;
+    double aim = kAim;
+    for (int sweep = 0; sweep < kSweeps && !now.empty(); ++sweep, aim *= kNextAim) {
+      for (Index v : nodes_near(now)) move(v, aim);
+      now = find_turned(solid_);
+      if (now.size() < turned.size()) turned = now, best = solid_.points;
     }
+    solid_.points = std::move(best);
     return turned;
   }
 
@@ -107,8 +107,8 @@ class Untangler {
   }
 
   /// A search along the axes, with steps that get shorter.
-  void move(Index v) {
-    const double size = mean_edge(v), delta = kAim * size * size * size;
+  void move(Index v, double aim) {
+    const double size = mean_edge(v), delta = aim * size * size * size;
     if (!(size > 0)) return;
     double best = energy(v, delta);
     for (double step = kFirstStep * size; step > kLastStep * size; step /= 2) {

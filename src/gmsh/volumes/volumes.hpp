@@ -20,7 +20,7 @@ VolumeCounts count_volume_elements();
 
 struct MeshedVolumes {
   std::vector<std::string> warnings;  ///< Gmsh's
-  std::vector<std::string> told;      ///< what is otherwise than asked for
+  std::vector<std::string> told;      ///< what differs from what was asked for
   std::vector<std::string> bad;       ///< volumes with elements that are turned over or do not fit, and where
 };
 

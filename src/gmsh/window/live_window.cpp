@@ -23,7 +23,7 @@ constexpr int kGivenUp = 0, kSelected = 1, kUndone = 3, kEnded = 4;
 /// Of an element's sides: dark on light colours and on the background.
 constexpr int kMeshLines[] = {60, 60, 70};
 
-/// No view is there as long as this lives: Gmsh 4.8 crashes when a click meets one that is made of lists.
+/// Hides all views for as long as this lives: Gmsh 4.8 crashes when a click hits one that is made of lists.
 class HiddenViews {
  public:
   HiddenViews() {
@@ -38,7 +38,7 @@ class HiddenViews {
       ::gmsh::view::getTags(all);
       for (int tag : hidden_)
         if (std::count(all.begin(), all.end(), tag)) set_option(visible(tag), 1);
-    } catch (...) {  // a destructor has nobody to tell
+    } catch (...) {  // a destructor cannot report it
     }
   }
   HiddenViews(const HiddenViews&) = delete;

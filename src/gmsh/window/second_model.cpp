@@ -64,7 +64,7 @@ SecondModel::~SecondModel() {
   try {
     ::gmsh::model::setCurrent(first_);
     show_box(low_, high_);
-  } catch (...) {  // a destructor has nobody to tell
+  } catch (...) {  // a destructor cannot report it
   }
 }
 

@@ -92,9 +92,9 @@ std::map<Edge, int> count_sides(const ModelMesh& mesh) {
   return count;
 }
 
-class Collector {
+class ConsumerMeshBuilder {
  public:
-  Collector(const Consumer& consumer, bool everything)
+  ConsumerMeshBuilder(const Consumer& consumer, bool everything)
       : consumer_(consumer), mesh_(read_model_mesh()), everything_(everything) {
     ::gmsh::vectorpair groups;
     ::gmsh::model::getPhysicalGroups(groups);
@@ -105,13 +105,21 @@ class Collector {
         if (entity.dim > 0) joined_.insert(block.nodes.begin(), block.nodes.end());
   }
 
-  ConsumerMesh collect();
+  ConsumerMesh build();
 
  private:
   void add_entity(const EntityMesh& entity);
   void complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups);
   void add_links();
+  /// What there is, of what readers ask for.
+  struct Census {
+    std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
+    std::size_t curved_quads_with_middle = 0, curved_quads_without_middle = 0;
+    std::set<int> orders;
+  };
+  Census count_elements() const;
   void complain_of_elements();
+  void complain_of_middle_nodes(const Census& census);
   void complain_of_names();
   void complain_of_height();
   bool is_inner_line(const ElementBlock& block, std::size_t i) const;
@@ -129,18 +137,18 @@ class Collector {
   std::set<int> signs_;  // of the surfaces' groups: 1 in one, 0 in none
 };
 
-std::size_t Collector::number(std::size_t tag) {
+std::size_t ConsumerMeshBuilder::number(std::size_t tag) {
   const auto [found, is_new] = numbers_.try_emplace(tag, numbers_.size() + 1);
   if (is_new) result_.nodes.push_back(scale_ * point(tag));
   return found->second;
 }
 
-bool Collector::is_inner_line(const ElementBlock& block, std::size_t i) const {
+bool ConsumerMeshBuilder::is_inner_line(const ElementBlock& block, std::size_t i) const {
   const auto side = sides_.find(std::minmax(block.nodes[i], block.nodes[i + 1]));
   return side == sides_.end() || side->second != 1;
 }
 
-void Collector::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
+void ConsumerMeshBuilder::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
   if (groups.size() > 1 && entity.dim >= 1)
     result_.complaints.push_back(fmt::format("{} {} is in {} physical groups, and {} takes one for each element",
                                              entity.dim == 1 ? "curve" : "surface", entity.tag, groups.size(),
@@ -152,7 +160,7 @@ void Collector::complain_of_groups(const EntityMesh& entity, const std::vector<i
         fmt::format("surface {} is in no physical group, and {} wants every cell tagged", entity.tag, consumer_.title));
 }
 
-void Collector::add_entity(const EntityMesh& entity) {
+void ConsumerMeshBuilder::add_entity(const EntityMesh& entity) {
   std::vector<int> groups;
   ::gmsh::model::getPhysicalGroupsForEntity(entity.dim, entity.tag, groups);
   if (entity.blocks.empty() || (groups.empty() && !everything_)) return;
@@ -173,7 +181,7 @@ void Collector::add_entity(const EntityMesh& entity) {
 }
 
 /// The converter of SPECFEM2D looks for these.
-void Collector::complain_of_names() {
+void ConsumerMeshBuilder::complain_of_names() {
   std::set<std::string> missing = {"Bottom", "Left", "Right", "Top"};
   std::string wrong;
   for (const PhysicalGroup& group : read_physical_groups()) {
@@ -192,49 +200,59 @@ void Collector::complain_of_names() {
         fmt::format("{} wants physical surfaces to be named M1, M2, ..., and there is {}", consumer_.title, wrong));
 }
 
-void Collector::complain_of_elements() {
-  std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
-  int order = 1;
-  std::set<int> orders;
+/// How many elements of each kind the reader would get.
+ConsumerMeshBuilder::Census ConsumerMeshBuilder::count_elements() const {
+  Census census;
   std::map<int, ElementType> types;
   for (const ConsumerElement& element : result_.elements) {
     if (!types.count(element.type)) types[element.type] = element_type(element.type);
     const ElementType& type = types.at(element.type);
-    if (element.dim == 2 && type.corners == 3) ++triangles;
-    if (element.dim == 3) ++volumes;
-    if (element.dim == 1 && !element.groups.empty()) ++grouped_lines;
-    order = std::max(order, type.order);
-    if (element.dim > 0) orders.insert(type.order);
-    if (element.dim == 2 && type.corners == 4 && type.order > 1 && type.incomplete() != consumer_.wants_incomplete &&
-        consumer_.max_order > 1 && consumer_.name != "elmer")
-      ++types[-1].nodes;
+    const bool is_quad = element.dim == 2 && type.corners == 4;
+    census.triangles += element.dim == 2 && type.corners == 3;
+    census.volumes += element.dim == 3;
+    census.grouped_lines += element.dim == 1 && !element.groups.empty();
+    census.curved_quads_without_middle += is_quad && type.order > 1 && type.incomplete();
+    census.curved_quads_with_middle += is_quad && type.order > 1 && !type.incomplete();
+    if (element.dim > 0) census.orders.insert(type.order);
   }
+  return census;
+}
+
+void ConsumerMeshBuilder::complain_of_elements() {
+  const Census census = count_elements();
   const auto say = [&](const std::string& what) { result_.complaints.push_back(what); };
-  if (triangles && consumer_.only_quads)
+  if (census.triangles && consumer_.only_quads)
     say(fmt::format(
         "{} triangle{} left, and {} wants quads alone; an even number of sides around each surface leaves none",
-        triangles, triangles == 1 ? " is" : "s are", consumer_.title));
-  if (!volumes && consumer_.needs_volumes)
+        census.triangles, census.triangles == 1 ? " is" : "s are", consumer_.title));
+  if (!census.volumes && consumer_.needs_volumes)
     say(fmt::format(
         "there are no cells of dimension 3, and {} reads no others; extrude the quads by one layer, or use -3",
         consumer_.title));
-  if (!grouped_lines && consumer_.needs_curve_groups)
+  if (!census.grouped_lines && consumer_.needs_curve_groups)
     say(fmt::format("no curve is in a physical group, and {} would have no marker", consumer_.title));
-  if (order > consumer_.max_order)
+  if (const int order = census.orders.empty() ? 1 : *census.orders.rbegin(); order > consumer_.max_order)
     say(fmt::format("its elements are of order {}, and {} takes order {} at most", order, consumer_.title,
                     consumer_.max_order));
-  if (orders.size() > 1)
-    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(orders, " and "),
+  if (census.orders.size() > 1)
+    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(census.orders, " and "),
                     consumer_.title));
   if (consumer_.specfem_names) complain_of_names();
-  if (types.count(-1))
-    say(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})", consumer_.title,
-                    consumer_.wants_incomplete ? "8" : "9", consumer_.wants_incomplete ? 1 : 0));
+  complain_of_middle_nodes(census);
   if (consumer_.name == "mfem" && signs_.size() > 1)
     say("some surfaces are in a physical group and some are not: a non-positive element attribute for MFEM");
 }
 
-void Collector::complain_of_height() {
+/// Quads of order 2 have 8 nodes, or 9 with the one in the middle.
+void ConsumerMeshBuilder::complain_of_middle_nodes(const Census& census) {
+  if (consumer_.max_order < 2 || consumer_.name == "elmer") return;  // it takes both
+  if (!(consumer_.wants_incomplete ? census.curved_quads_with_middle : census.curved_quads_without_middle)) return;
+  result_.complaints.push_back(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})",
+                                           consumer_.title, consumer_.wants_incomplete ? "8" : "9",
+                                           consumer_.wants_incomplete ? 1 : 0));
+}
+
+void ConsumerMeshBuilder::complain_of_height() {
   const double z = result_.nodes.empty() ? 0 : result_.nodes.front().z();
   if (const std::optional<Eigen::Vector3d> off = find_off_plane(result_, z))
     result_.complaints.push_back(
@@ -243,7 +261,7 @@ void Collector::complain_of_height() {
 }
 
 /// Only nodes that the reader gets.
-void Collector::add_links() {
+void ConsumerMeshBuilder::add_links() {
   for (const int dim : {0, 1, 2})
     for (PeriodicLink& link : read_periodic_links(mesh_, dim)) {
       std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -256,7 +274,7 @@ void Collector::add_links() {
     }
 }
 
-ConsumerMesh Collector::collect() {
+ConsumerMesh ConsumerMeshBuilder::build() {
   for (const EntityMesh& entity : mesh_.entities) add_entity(entity);
   if (consumer_.periodic) add_links();
   complain_of_elements();
@@ -292,7 +310,7 @@ const Consumer& find_consumer(const std::string& name) {
 }
 
 ConsumerMesh collect_for(const Consumer& consumer, bool everything) {
-  return Collector(consumer, everything).collect();
+  return ConsumerMeshBuilder(consumer, everything).build();
 }
 
 }  // namespace qmorph::adapter

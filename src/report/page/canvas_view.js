@@ -6,6 +6,8 @@ const kMargin = 0.2;         // of the pane, on each side of it
 const kSettleMs = 140;       // the hand rests
 const kFastMs = 12;          // paints that may happen at every frame of a movement
 const kDraftMs = 45;         // the same for drafts, which leave out lines
+// While the mesh is turned: drafts of so many pixels to one, coarser or finer by the time that they take.
+const kCoarse = [1, 1.5, 2, 3, 4], kSlowMs = 14, kQuickMs = 5;
 const kLargestRatio = 2;     // device pixels to one of CSS
 
 export class CanvasView {
@@ -18,6 +20,8 @@ export class CanvasView {
     this.cacheView = null;
     this.paintMs = 0;
     this.draftMs = 0;
+    this.coarse = 2;
+    this.stale = false;
     this.lastMove = -Infinity;
     this.paints = 0;
     this.frames = 0;
@@ -34,12 +38,17 @@ export class CanvasView {
   get settled() {
     if (this.width < 1) return true;
     const cached = this.cacheView;
-    return !this.requested && Boolean(cached) && !cached.draft && covers(cached, this.viewNow(0)) && performance.now() - this.lastMove > kSettleMs;
+    return !this.requested && Boolean(cached) && !this.stale && !cached.draft && covers(cached, this.viewNow(0)) && performance.now() - this.lastMove > kSettleMs;
   }
 
   moved() {
     this.lastMove = performance.now();
     this.request();
+  }
+  // It is seen from another side now.
+  turned() {
+    this.stale = true;
+    this.moved();
   }
   // The picture has changed, not only where it is seen from.
   invalidate() {
@@ -56,8 +65,8 @@ export class CanvasView {
   }
 
   // The view that the pane has now, in device pixels, with a margin around it.
-  viewNow(margin) {
-    const ratio = Math.min(window.devicePixelRatio || 1, kLargestRatio);
+  viewNow(margin, coarse = 1) {
+    const ratio = Math.min(window.devicePixelRatio || 1, kLargestRatio) / coarse;
     const width = Math.round(this.width * ratio), height = Math.round(this.height * ratio);
     const mx = Math.round(margin * width), my = Math.round(margin * height);
     const k = this.camera.scale * ratio;
@@ -71,9 +80,10 @@ export class CanvasView {
     ++this.frames;
     const resting = performance.now() - this.lastMove > kSettleMs;
     const cached = this.cacheView;
-    const covered = cached && covers(cached, now);
+    const covered = cached && !this.stale && covers(cached, now);
     if (!covered || (cached.draft && resting)) {
       if (resting || !cached || this.paintMs < kFastMs) this.paint(false);
+      else if (this.stale) this.paintCoarse();
       else if (this.draftMs < kDraftMs) this.paint(true);
     }
     this.copy(now);
@@ -81,9 +91,22 @@ export class CanvasView {
     if (!resting) this.timer = setTimeout(() => this.request(), kSettleMs + 20);
   }
 
+  paintCoarse() {
+    const start = performance.now();
+    this.paintView({...this.viewNow(0, kCoarse[this.coarse]), draft: true});
+    const ms = performance.now() - start;
+    if (ms > kSlowMs) this.coarse = Math.min(this.coarse + 1, kCoarse.length - 1);
+    if (ms < kQuickMs) this.coarse = Math.max(this.coarse - 1, 0);
+  }
+
   paint(draft) {
     const start = performance.now();
-    const view = {...this.viewNow(kMargin), draft};
+    this.paintView({...this.viewNow(kMargin), draft});
+    if (draft) this.draftMs = performance.now() - start;
+    else this.paintMs = performance.now() - start;
+  }
+
+  paintView(view) {
     if (this.cache.width !== view.width || this.cache.height !== view.height) {
       this.cache.width = view.width;
       this.cache.height = view.height;
@@ -93,9 +116,8 @@ export class CanvasView {
     this.image ??= ctx.createImageData(view.width, view.height);
     this.painter.paint(ctx, this.image, view);
     this.cacheView = view;
+    this.stale = false;
     ++this.paints;
-    if (draft) this.draftMs = performance.now() - start;
-    else this.paintMs = performance.now() - start;
   }
 
   copy(now) {

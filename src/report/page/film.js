@@ -3,9 +3,9 @@
 
 import {byId, element, whole} from "./dom.js";
 import {readFacts, readNumbers} from "./numbers.js";
-import {joined} from "./mesh.js";
 import {Camera} from "./camera.js";
 import {CanvasView} from "./canvas_view.js";
+import {Turning, connectAxes, axisOfKey} from "./turning.js";
 import {listenToPane} from "./gestures.js";
 import {toggleTheme, onTheme} from "./theme.js";
 import {Film, kSteps, kSides} from "./film_data.js";
@@ -16,6 +16,7 @@ const film = new Film(facts, readNumbers());
 const camera = new Camera();
 const painter = new FilmPainter(film);
 const view = new CanvasView(byId("canvas-film"), camera, painter);
+const turning = facts.frame.flat ? null : new Turning(facts.frame.turned, camera, [film], () => view.turned());
 let playing = false, speed = 20, owed = 0, last = 0;
 
 function sentence(note) {
@@ -65,6 +66,7 @@ function tick(now) {
 // Keeps the base edge in the pane.
 function follow() {
   if (film.step === 0) return;
+  film.update();
   const [a, b] = film.describe(film.step - 1).base;
   const x = (film.xy[2 * a] + film.xy[2 * b]) / 2, y = (film.xy[2 * a + 1] + film.xy[2 * b + 1]) / 2;
   const px = (x - camera.x) * camera.scale, py = (y - camera.y) * camera.scale;
@@ -72,7 +74,14 @@ function follow() {
   camera.x = x, camera.y = y;
   camera.changed();
 }
-function fit() { camera.fit(view.width, view.height); }
+function fit() {
+  if (turning) camera.home = film.bounds();
+  camera.fit(view.width, view.height);
+}
+function look(angles) {
+  turning.look(angles);
+  fit();
+}
 
 // A quad that is there: to the step that made it. One that is to come: by playing on until the triangle is gone.
 function jump(px, py) {
@@ -117,7 +126,8 @@ function connectFilm() {
   byId("zoom-in").onclick = () => camera.zoom(1.5);
   byId("zoom-out").onclick = () => camera.zoom(1 / 1.5);
   byId("theme").onclick = toggleTheme;
-  listenToPane(view, {click: jump, turn: null, keepArrows: true});
+  if (turning) connectAxes(turning, look);
+  listenToPane(view, {click: jump, turning, keepArrows: true});
   document.addEventListener("keydown", onFilmKey);
   onTheme(() => { drawLegend(); view.invalidate(); });
 }
@@ -130,7 +140,8 @@ function onFilmKey(event) {
     Home: jumpBy(-Infinity), End: jumpBy(Infinity), "+": () => camera.zoom(1.5), "=": () => camera.zoom(1.5),
     "-": () => camera.zoom(1 / 1.5), 0: fit, d: toggleTheme,
   };
-  const action = actions[event.key];
+  const angles = turning && axisOfKey(event.key);
+  const action = angles ? () => look(angles) : actions[event.key];
   if (!action) return;
   event.preventDefault();
   action();
@@ -141,7 +152,7 @@ drawLegend();
 byId("subtitle").textContent = `${facts.input} → ${facts.output}`;
 byId("command").textContent = facts.command;
 byId("version").textContent = `qmorph ${facts.version}`;
-if (film.regions.length > 0) camera.home = film.regions.map((region) => region.box).reduce(joined);
+if (film.regions.length > 0) camera.home = film.bounds();
 // About half a minute for all of it, in round numbers.
 const speeds = [...byId("speed").options].map((option) => Number(option.value));
 speed = speeds.find((s) => s >= film.stepCount / 30) ?? speeds.at(-1);
@@ -155,4 +166,4 @@ new ResizeObserver(() => {
   if (camera.scale === camera.fitted) fit();
 }).observe(byId("canvas-film"));
 
-window.qmorph = {facts, film, camera, view, goTo, play, fit};
+window.qmorph = {facts, film, camera, turning, view, painter, goTo, play, fit};

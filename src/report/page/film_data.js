@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A film: what the front did, as changes from step to step. The coding is described in src/report/film.hpp.
 
+import {Lift} from "./film_lift.js";
+import {project, joined} from "./mesh.js";
+import {faceAt, depthAt} from "./picking.js";
+
 export const kSteps = [
   {name: "quad"}, {name: "small loop closed"}, {name: "seam"}, {name: "transition seam"}, {name: "transition split"},
   {name: "long edge split", about: "the input gets finer ahead"},
@@ -34,7 +38,7 @@ const kKey = 2 ** 26;
 export const edgeKey = (a, b) => a * kKey + b;
 
 // The films of all regions, one after another, as one mesh that changes. `xy` (two a node), `corners` (four a face, -1 for
-// none) and `order` are what the panes draw. Step 0 is the start; `step` is how many have been taken.
+// none) and, in space, `depth` are what the panes draw. Step 0 is the start; `step` is how many have been taken.
 export class Film {
   constructor(facts, array) {
     this.regions = facts.regions;
@@ -50,12 +54,15 @@ export class Film {
       nodes += region.nodeCount;
       faces += region.faceCount;
     }
+    this.nodeCount = nodes;
     this.xy = new Float32Array(2 * nodes);
+    this.depth = facts.frame.flat ? null : new Float32Array(nodes);
+    this.points = facts.frame.flat ? null : new Float32Array(3 * nodes);  // in space
+    this.hints = facts.frame.flat ? null : new Int32Array(nodes);  // a triangle of the region's start near the node
     this.places = new Float64Array(2 * nodes);  // in the film's units
     this.seen = new Uint8Array(nodes);
     this.corners = new Int32Array(4 * faces).fill(kGone);
     this.faceCount = faces;
-    this.order = null;
     this.sides = new Map();   // from an edge's key to the face on its left
     this.frontKeys = new Set();
     this.faceCounts = {quads: 0, triangles: 0};
@@ -90,18 +97,42 @@ export class Film {
     const points = new Bytes(array(region.points)), faces = new Bytes(array(region.faces));
     for (let v = 0, x = 0, y = 0; v < region.point_count; ++v) {
       this.seen[region.firstNode + v] = 1;
-      this.setPlace(region, region.firstNode + v, x += points.signed(), y += points.signed());
+      x += points.signed(), y += points.signed();
+      this.places.set([x, y], 2 * (region.firstNode + v));
     }
     for (let f = 0, node = region.firstNode; f < region.face_count; ++f) {
       const corners = [kGone, kGone, kGone, kGone];
       for (let i = 0, n = faces.signed(); i < n; ++i) corners[i] = node += faces.signed();
       this.setFace(region.firstFace + f, corners);
     }
-    region.box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (let v = 0; v < region.point_count; ++v) {
-      const x = this.xy[2 * (region.firstNode + v)], y = this.xy[2 * (region.firstNode + v) + 1];
-      region.box = [Math.min(region.box[0], x), Math.min(region.box[1], y), Math.max(region.box[2], x), Math.max(region.box[3], y)];
+    if (region.places) region.lift = new Lift(this, region, array(region.places));
+    for (let v = region.firstNode; v < region.firstNode + region.point_count; ++v) {
+      if (region.lift) this.hints[v] = region.lift.triangleAt(v - region.firstNode);
+      this.setPlace(region, v, this.places[2 * v], this.places[2 * v + 1]);
     }
+  }
+
+  // Places on the screen's plane, from the rows of a rotation.
+  project(rows) {
+    this.rows = rows;
+    this.isStale = true;
+  }
+  // Brings them up to date.
+  update() {
+    if (!this.isStale) return;
+    project(this.points, this.nodeCount, this.rows, this.xy, this.depth);
+    this.isStale = false;
+  }
+  // Around what there was at the start.
+  bounds() {
+    this.update();
+    let box = [Infinity, Infinity, -Infinity, -Infinity];
+    for (const {firstNode, point_count} of this.regions)
+      for (let v = firstNode; v < firstNode + point_count; ++v) {
+        const x = this.xy[2 * v], y = this.xy[2 * v + 1];
+        box = joined(box, [x, y, x, y]);
+      }
+    return box[0] <= box[2] ? box : [-1, -1, 1, 1];
   }
 
   // Reads one step and calls what the visitor has: head(kind, ...), node(v, dx, dy), face(f, corners), level(a, b, level).
@@ -137,8 +168,14 @@ export class Film {
   setPlace(region, v, x, y) {
     this.places[2 * v] = x, this.places[2 * v + 1] = y;
     const {at, u, w} = region;
-    this.xy[2 * v] = at[0] + x * u[0] + y * w[0];
-    this.xy[2 * v + 1] = at[1] + x * u[1] + y * w[1];
+    if (!this.points) {
+      this.xy[2 * v] = at[0] + x * u[0] + y * w[0];
+      this.xy[2 * v + 1] = at[1] + x * u[1] + y * w[1];
+      return;
+    }
+    this.isStale = true;
+    if (region.lift) this.hints[v] = region.lift.place(x, y, this.hints[v], this.points, 3 * v);
+    else for (let i = 0; i < 3; ++i) this.points[3 * v + i] = at[i] + x * u[i] + y * w[i];
   }
 
   setFace(f, corners) {
@@ -201,8 +238,9 @@ export class Film {
       node: (own, dx, dy) => {
         const v = own + region.firstNode;
         const [x, y] = this.seen[v] ? [this.places[2 * v], this.places[2 * v + 1]] : nearPlace;
-        if (first) undo.nodes.push(v, this.places[2 * v], this.places[2 * v + 1], this.seen[v]);
+        if (first) undo.nodes.push(v, this.places[2 * v], this.places[2 * v + 1], this.seen[v], this.hints?.[v] ?? 0);
         this.seen[v] = 1;
+        if (this.hints) this.hints[v] = this.hints[near];
         this.setPlace(region, v, x + dx, y + dy);
       },
       face: (own, corners) => {
@@ -230,7 +268,8 @@ export class Film {
       this.setFace(undo.faces[i], undo.faces.subarray(i + 1, i + 5));
       this.quadStep[undo.faces[i]] = undo.faces[i + 5];
     }
-    for (let i = undo.nodes.length - 4; i >= 0; i -= 4) {
+    for (let i = undo.nodes.length - 5; i >= 0; i -= 5) {
+      if (this.hints) this.hints[undo.nodes[i]] = undo.nodes[i + 4];
       this.setPlace(region, undo.nodes[i], undo.nodes[i + 1], undo.nodes[i + 2]);
       this.seen[undo.nodes[i]] = undo.nodes[i + 3];
     }
@@ -281,24 +320,19 @@ export class Film {
   }
   // Is the angle at b, from b -> c counter-clockwise to b -> a, below that of a corner?
   isCorner(a, b, c) {
-    const {xy} = this;
+    const {places: xy} = this;  // in the plane where the front works
     const ax = xy[2 * a] - xy[2 * b], ay = xy[2 * a + 1] - xy[2 * b + 1], cx = xy[2 * c] - xy[2 * b], cy = xy[2 * c + 1] - xy[2 * b + 1];
     const cross = cx * ay - cy * ax, dot = cx * ax + cy * ay;
     return cross > 0 && Math.atan2(cross, dot) < this.regions[0].corner_angle ? 1 : 0;
   }
 
   faceAt(x, y) {
-    const {xy, corners} = this;
-    for (let f = 0; f < this.faceCount; ++f) {
-      const n = count(corners.subarray(4 * f, 4 * f + 4));
-      let inside = false;
-      for (let i = 0, j = n - 1; i < n; j = i++) {
-        const a = 2 * corners[4 * f + i], b = 2 * corners[4 * f + j];
-        if ((xy[a + 1] > y) !== (xy[b + 1] > y) && x < xy[a] + ((y - xy[a + 1]) / (xy[b + 1] - xy[a + 1])) * (xy[b] - xy[a])) inside = !inside;
-      }
-      if (inside) return f;
-    }
-    return -1;
+    if (this.points) this.update();
+    return faceAt(this, x, y, (f) => this.corners[4 * f] !== kGone);
+  }
+  depthAt(x, y) {
+    this.update();
+    return depthAt(this, x, y, (f) => this.corners[4 * f] !== kGone);
   }
 
   counts() { return {...this.faceCounts}; }

@@ -3,13 +3,14 @@
 
 const kClickPixels = 5;
 const kWheelZoom = 1.0015;  // for a unit of deltaY
-const kPanStep = 60;
+const kPanStep = 60, kTurnStep = 20;
 
-// actions: {click(x, y), turn(dx, dy) or null}
+// actions: {click(x, y), turning (turning.js; null for what is flat), keepArrows}. What is in space is turned by a drag and
+// moved by one with shift, or with another button; what is flat is moved.
 export function listenToPane(view, actions) {
-  const {canvas, camera} = view;
+  const {canvas, camera} = view, {turning} = actions;
   const pointers = new Map();
-  let travelled = 0;
+  let travelled = 0, turns = false;
 
   const place = (event) => {
     const box = canvas.getBoundingClientRect();
@@ -24,7 +25,11 @@ export function listenToPane(view, actions) {
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     canvas.focus({preventScroll: true});
-    if (pointers.size === 0) travelled = 0;
+    if (pointers.size === 0) {
+      travelled = 0;
+      turns = Boolean(turning) && !event.shiftKey && event.button === 0;
+      if (turns) turning.begin();
+    }
     pointers.set(event.pointerId, place(event));
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -35,7 +40,7 @@ export function listenToPane(view, actions) {
     if (pointers.size === 1) {
       pointers.set(event.pointerId, now);
       if (travelled <= kClickPixels) return;
-      if (event.shiftKey && actions.turn) actions.turn(dx, dy);
+      if (turns) turning.turn(dx, dy);
       else camera.pan(dx, dy);
     } else if (pointers.size === 2) {
       const old = spread();
@@ -51,6 +56,7 @@ export function listenToPane(view, actions) {
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
+  if (turning) canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 20 : 1;  // some browsers count lines
@@ -61,7 +67,8 @@ export function listenToPane(view, actions) {
     const steps = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
     if (!steps || event.ctrlKey || event.metaKey || event.altKey || actions.keepArrows) return;
     event.preventDefault();
-    if (event.shiftKey && actions.turn) actions.turn(-20 * steps[0], -20 * steps[1]);
-    else camera.pan(kPanStep * steps[0], kPanStep * steps[1]);
+    if (!turning || event.shiftKey) return camera.pan(kPanStep * steps[0], kPanStep * steps[1]);
+    turning.begin();
+    turning.turn(-kTurnStep * steps[0], -kTurnStep * steps[1]);
   });
 }

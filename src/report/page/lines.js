@@ -3,8 +3,11 @@
 
 const kLinesInPath = 500;  // a path of many thousand lines takes a hundred times longer than many short paths
 
-// Draws segments [a0, b0, a1, b1, ...] of nodes, those that `wanted` (or null) lets through, in `style`.
-export function strokeSegments(ctx, drawable, view, segments, style, width, wanted = null) {
+const kNodes = 2 ** 26;
+const kPieces = 8;  // of a segment that is hidden in part
+
+// Draws segments [a0, b0, a1, b1, ...] of nodes in `style`; in space what of them the buffer (or null) sees.
+export function strokeSegments(ctx, drawable, view, segments, style, width, buffer = null) {
   const {xy} = drawable, {k, ox, oy} = view;
   ctx.strokeStyle = style;
   ctx.lineWidth = width;
@@ -16,9 +19,12 @@ export function strokeSegments(ctx, drawable, view, segments, style, width, want
     const ax = k * xy[2 * a] + ox, ay = oy - k * xy[2 * a + 1], bx = k * xy[2 * b] + ox, by = oy - k * xy[2 * b + 1];
     if ((ax < 0 && bx < 0) || (ay < 0 && by < 0) || (ax > view.width && bx > view.width) ||
         (ay > view.height && by > view.height)) continue;
-    if (wanted && !wanted(i / 2, (ax + bx) / 2, (ay + by) / 2)) continue;
-    ctx.moveTo(ax, ay);
-    ctx.lineTo(bx, by);
+    if (buffer) {
+      traceSeen(ctx, buffer, ax, ay, k * drawable.depth[a], bx, by, k * drawable.depth[b]);
+    } else {
+      ctx.moveTo(ax, ay);
+      ctx.lineTo(bx, by);
+    }
     if (++inPath === kLinesInPath) {
       ctx.stroke();
       ctx.beginPath();
@@ -28,8 +34,22 @@ export function strokeSegments(ctx, drawable, view, segments, style, width, want
   ctx.stroke();
 }
 
+function traceSeen(ctx, buffer, ax, ay, az, bx, by, bz) {
+  const dx = bx - ax, dy = by - ay, dz = bz - az;
+  const sees = (t) => buffer.sees(ax + t * dx, ay + t * dy, az + t * dz);
+  const trace = (from, to) => {
+    ctx.moveTo(ax + from * dx, ay + from * dy);
+    ctx.lineTo(ax + to * dx, ay + to * dy);
+  };
+  const first = sees(0), middle = sees(0.5), last = sees(1);
+  if (first && middle && last) return trace(0, 1);
+  if (!first && !middle && !last) return;
+  for (let i = 0; i < kPieces; ++i) if (sees((i + 0.5) / kPieces)) trace(i / kPieces, (i + 1) / kPieces);
+}
+
 // Sides of faces as segments, each side once where two faces agree in orientation. `accept(f)` chooses the faces.
-export function faceSides(drawable, view, accept) {
+// `once` (or null), a set: each side once, whatever the faces' orientations, of all calls with that set.
+export function faceSides(drawable, view, accept, once = null) {
   const {xy, corners, faceCount} = drawable, {k, ox, oy, width, height} = view;
   const segments = [];
   for (let f = 0; f < faceCount; ++f) {
@@ -43,7 +63,14 @@ export function faceSides(drawable, view, accept) {
     if (right < 0 || left > width || bottom < 0 || top > height) continue;
     for (let i = 0; i < n; ++i) {
       const a = corners[4 * f + i], b = corners[4 * f + ((i + 1) % n)];
-      if (a < b) segments.push(a, b);
+      if (!once) {
+        if (a < b) segments.push(a, b);
+        continue;
+      }
+      const key = Math.min(a, b) * kNodes + Math.max(a, b);
+      if (once.has(key)) continue;
+      once.add(key);
+      segments.push(a, b);
     }
   }
   return segments;

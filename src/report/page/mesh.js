@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh as the page holds it: four corners a face, the last -1 in a triangle.
 
-export const kNone = -1;
+import {kNone, faceAt, depthAt} from "./picking.js";
+
 const kNoFigure = -32768;
 
 export class Mesh {
@@ -27,8 +28,7 @@ export class Mesh {
     this.shown = new Uint8Array(this.faceCount).fill(1);
     this.xy = new Float32Array(2 * this.nodeCount);
     this.depth = frame.flat ? null : new Float32Array(this.nodeCount);
-    this.order = null;
-    this.project([1, 0, 0, 0, 1, 0, 0, 0, 1]);
+    if (frame.flat) this.xy.set(this.points);
   }
 
   expand(counts, flat) {
@@ -42,34 +42,27 @@ export class Mesh {
   nodesOf(f) { return Array.from(this.corners.subarray(4 * f, 4 * f + this.cornerCount(f))); }
   surfaceOf(f) { return this.surfaces.find((s) => f >= s.first && f < s.first + s.count); }
 
-  // Coordinates on the screen's plane, from the rows of a rotation; faces from back to front where the mesh is not flat.
-  project(rotation) {
-    const {points, xy, depth} = this;
-    if (!depth) return xy.set(points);
-    const [a, b, c, d, e, f, g, h, i] = rotation;
-    for (let v = 0; v < this.nodeCount; ++v) {
-      const x = points[3 * v], y = points[3 * v + 1], z = points[3 * v + 2];
-      xy[2 * v] = a * x + b * y + c * z;
-      xy[2 * v + 1] = d * x + e * y + f * z;
-      depth[v] = g * x + h * y + i * z;
-    }
-    this.faceDepth = Float32Array.from({length: this.faceCount}, (_, face) => {
-      const n = this.corners, at = 4 * face;
-      return n[at + 3] === kNone ? (depth[n[at]] + depth[n[at + 1]] + depth[n[at + 2]]) / 3
-                                 : (depth[n[at]] + depth[n[at + 1]] + depth[n[at + 2]] + depth[n[at + 3]]) / 4;
-    });
-    this.order = Uint32Array.from({length: this.faceCount}, (_, face) => face);
-    this.order.sort((p, q) => this.faceDepth[p] - this.faceDepth[q] || p - q);
+  // Coordinates on the screen's plane and towards the eye, from the rows of a rotation; of a mesh in space.
+  project(rows) {
+    this.rows = rows;
+    this.isStale = true;
+  }
+  // Brings them up to date, when somebody looks.
+  update() {
+    if (this.isStale) project(this.points, this.nodeCount, this.rows, this.xy, this.depth);
+    this.isStale = false;
   }
 
   // Smallest box around the faces that are shown: [x0, y0, x1, y1].
   bounds() {
+    this.update();
     let box = [Infinity, Infinity, -Infinity, -Infinity];
     for (let f = 0; f < this.faceCount; ++f) if (this.shown[f]) box = joined(box, this.faceBounds(f));
     return box[0] <= box[2] ? box : [-1, -1, 1, 1];
   }
 
   faceBounds(f) {
+    this.update();
     const box = [Infinity, Infinity, -Infinity, -Infinity];
     for (const v of this.nodesOf(f)) {
       const x = this.xy[2 * v], y = this.xy[2 * v + 1];
@@ -81,25 +74,34 @@ export class Mesh {
 
   // The shown face that has the point (x, y), the foremost of several; or kNone.
   faceAt(x, y) {
-    let found = kNone;
-    const {corners, xy} = this;
-    for (let f = 0; f < this.faceCount; ++f) {
-      if (!this.shown[f]) continue;
-      let inside = false;
-      const n = this.cornerCount(f);
-      for (let i = 0, j = n - 1; i < n; j = i++) {
-        const a = 2 * corners[4 * f + i], b = 2 * corners[4 * f + j];
-        if ((xy[a + 1] > y) !== (xy[b + 1] > y) &&
-            x < xy[a] + ((y - xy[a + 1]) / (xy[b + 1] - xy[a + 1])) * (xy[b] - xy[a])) inside = !inside;
-      }
-      if (inside && (found === kNone || !this.depth || this.faceDepth[f] > this.faceDepth[found])) found = f;
-    }
-    return found;
+    this.update();
+    return faceAt(this, x, y, (f) => this.shown[f] === 1);
+  }
+  depthAt(x, y) {
+    this.update();
+    return depthAt(this, x, y, (f) => this.shown[f] === 1);
+  }
+}
+
+export function project(points, count, [a, b, c, d, e, f, g, h, i], xy, depth) {
+  for (let v = 0; v < count; ++v) {
+    const x = points[3 * v], y = points[3 * v + 1], z = points[3 * v + 2];
+    xy[2 * v] = a * x + b * y + c * z;
+    xy[2 * v + 1] = d * x + e * y + f * z;
+    depth[v] = g * x + h * y + i * z;
   }
 }
 
 export function joined(a, b) {
   return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+}
+
+// Of a face in space, in the frame.
+export function normalOf(mesh, face) {
+  const nodes = mesh.nodesOf(face), n = nodes.length;
+  const p = nodes.map((v) => Array.from(mesh.points.subarray(3 * v, 3 * v + 3)));
+  const [u, w] = [[p[2], p[0]], [p[n - 1], n === 4 ? p[1] : p[0]]].map(([a, b]) => a.map((x, i) => x - b[i]));
+  return [u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]];
 }
 
 // Where a node is in the model, by the frame that the page's coordinates are in.

@@ -3,7 +3,9 @@
 
 import {byId, element, short} from "./dom.js";
 import {readFacts, readNumbers} from "./numbers.js";
-import {Mesh, joined, kNone} from "./mesh.js";
+import {Mesh, joined, normalOf} from "./mesh.js";
+import {kNone} from "./picking.js";
+import {Turning, anglesFrom, connectAxes, axisOfKey} from "./turning.js";
 import {Colouring, kFigures, kInverted, kUndefined, css, onScale, quantile, useScale} from "./colours.js";
 import {Camera} from "./camera.js";
 import {CanvasView} from "./canvas_view.js";
@@ -28,7 +30,9 @@ const panes = Object.fromEntries(Object.entries(meshes).map(([side, mesh]) => {
   return [side, {mesh, painter, node: byId(`pane-${side}`), view: new CanvasView(byId(`canvas-${side}`), camera, painter)}];
 }));
 let mode = "", blinking = 0, worstAt = -1, worst = [];
-let turned = [-0.5, 0.6];  // about the vertical and the horizontal, radians; for meshes in space
+const turning = facts.frame.flat ? null : new Turning(facts.frame.turned, camera, Object.values(meshes), () => {
+  for (const pane of Object.values(panes)) pane.view.turned();
+});
 
 const firstShown = () => Object.values(panes).find((pane) => !pane.node.hidden);
 const repaint = () => { for (const pane of Object.values(panes)) pane.view.invalidate(); };
@@ -118,7 +122,22 @@ function select(mesh, face) {
   }
   for (const pane of Object.values(panes)) pane.view.request();
 }
+// From the side on which the face is in front, if there is one.
+function lookAt(mesh, face) {
+  const nodes = mesh.nodesOf(face), isInFront = () => {
+    mesh.update();
+    const middle = [0, 1].map((k) => nodes.reduce((sum, v) => sum + mesh.xy[2 * v + k], 0) / nodes.length);
+    return mesh.faceAt(...middle) === face;
+  };
+  const before = turning.angles, normal = normalOf(mesh, face);
+  for (const sign of [0, 1, -1]) {
+    if (sign !== 0) turning.look(anglesFrom(normal.map((x) => sign * x)));
+    if (isInFront()) return;
+  }
+  turning.look(before);
+}
 function zoomTo(mesh, face) {
+  if (turning) lookAt(mesh, face);
   const box = mesh.faceBounds(face), size = 4 * Math.max(box[2] - box[0], box[3] - box[1]);
   const pane = firstShown().view;
   camera.show([box[0] - size, box[1] - size, box[2] + size, box[3] + size], pane.width, pane.height, 0);
@@ -195,18 +214,13 @@ function setHome() {
   camera.home = joined(meshes.before.bounds(), meshes.after.bounds());
 }
 function fit() {
+  if (turning) setHome();
   const pane = firstShown().view;
   camera.fit(pane.width, pane.height);
 }
-function turn(dx, dy) {
-  turned = [turned[0] + 0.01 * dx, Math.min(1.57, Math.max(-1.57, turned[1] + 0.01 * dy))];
-  applyTurn();
-}
-function applyTurn() {
-  const [a, b] = turned, [ca, sa, cb, sb] = [Math.cos(a), Math.sin(a), Math.cos(b), Math.sin(b)];
-  // About the frame's upward axis, then about the screen's horizontal one.
-  for (const mesh of Object.values(meshes)) mesh.project([ca, 0, sa, sa * sb, cb, -ca * sb, -sa * cb, sb, ca * cb]);
-  repaint();
+function look(angles) {
+  turning.look(angles);
+  fit();
 }
 
 function connectControls() {
@@ -224,10 +238,10 @@ function connectControls() {
   byId("zoom-in").onclick = () => camera.zoom(1.5);
   byId("zoom-out").onclick = () => camera.zoom(1 / 1.5);
   byId("theme").onclick = toggleTheme;
-  byId("turn-hint").hidden = facts.frame.flat;
+  if (turning) connectAxes(turning, look);
   byId("copy").onclick = () => navigator.clipboard?.writeText(facts.command).then(() => { byId("copy").textContent = "copied"; });
   for (const pane of Object.values(panes))
-    listenToPane(pane.view, {turn: facts.frame.flat ? null : turn, click: (x, y) => select(pane.mesh, pane.mesh.faceAt(...pane.view.toPlane(x, y)))});
+    listenToPane(pane.view, {turning, click: (x, y) => select(pane.mesh, pane.mesh.faceAt(...pane.view.toPlane(x, y)))});
   document.addEventListener("keydown", onKey);
   onTheme(repaintFaces);
 }
@@ -244,7 +258,9 @@ function onKey(event) {
     e: () => toggle("show-sides"), i: () => toggle("show-irregular"), o: () => toggle("show-boundary"), d: toggleTheme,
     n: () => goToWorst(worstAt + 1), p: () => goToWorst(worstAt - 1), Escape: () => select(null, kNone),
   };
-  actions[event.key]?.();
+  const angles = turning && axisOfKey(event.key);
+  if (angles) look(angles);
+  else actions[event.key]?.();
 }
 
 function fillPage() {
@@ -268,7 +284,6 @@ function fillPage() {
 connectControls();
 fillPage();
 listLayers();
-if (!facts.frame.flat) applyTurn();
 setMode("after");
 setHome();
 fit();
@@ -285,4 +300,4 @@ new ResizeObserver(() => {  // the first layout, a phone that is turned, two pan
 }).observe(byId("panes"));
 
 // For the console, and for tests.
-window.qmorph = {facts, meshes, panes, camera, settings, colourings, setMode, setColouring, zoomTo, select, goToWorst, fit};
+window.qmorph = {facts, meshes, panes, camera, turning, settings, colourings, setMode, setColouring, zoomTo, select, goToWorst, fit};

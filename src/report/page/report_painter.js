@@ -3,7 +3,8 @@
 // chosen.
 
 import {strokeSegments, faceSides, polygonPath} from "./lines.js";
-import {fillFaces} from "./raster.js";
+import {DepthBuffer} from "./depth_buffer.js";
+import {fillFaces, fillFacesInSpace} from "./raster.js";
 import {facePixels, pixel} from "./colours.js";
 import {themeColour, isDark} from "./theme.js";
 
@@ -25,6 +26,7 @@ export class ReportPainter {
   constructor(mesh, settings) {
     this.mesh = mesh;
     this.settings = settings;
+    this.buffer = mesh.depth ? new DepthBuffer() : null;
   }
   background() { return themeColour("pane"); }
 
@@ -33,14 +35,13 @@ export class ReportPainter {
 
   paint(ctx, image, view) {
     const {mesh, settings} = this;
+    mesh.update();
     this.pixels ??= facePixels(mesh, settings.colouring, rgbOf("plain"));
     const pixels = new Uint32Array(image.data.buffer);
     pixels.fill(pixel(rgbOf("pane")));
-    if (mesh.depth) {
-      if (this.ids?.length !== pixels.length) this.ids = new Int32Array(pixels.length);
-      this.ids.fill(-1);
-    }
-    const drawn = fillFaces(pixels, mesh, view, this.pixels, mesh.depth ? this.ids : null);
+    const drawn = this.buffer ? fillFacesInSpace(pixels, mesh, view, this.pixels, this.buffer.begin(view))
+                              : fillFaces(pixels, mesh, view, this.pixels);
+    this.painted = view;
     ctx.putImageData(image, 0, 0);
     this.elementPixels = Math.sqrt(drawn.area / Math.max(drawn.faces, 1)) / view.ratio;
     if (!view.draft) this.paintSides(ctx, view);
@@ -48,46 +49,25 @@ export class ReportPainter {
     if (!view.draft) this.paintMarks(ctx, view);
   }
 
-  // In space: is nothing in front of a node-sized thing at (x, y)?
-  inFront(view, x, y, depth) {
-    if (!this.mesh.depth) return true;
-    const px = Math.floor(x), py = Math.floor(y);
-    if (px < 0 || py < 0 || px >= view.width || py >= view.height) return false;
-    const f = this.ids[py * view.width + px];
-    return f < 0 || depth >= this.mesh.faceDepth[f] - 0.8 * this.mesh.figures.size[f];
-  }
-
   paintSides(ctx, view) {
-    const {mesh, settings} = this;
+    const {mesh, settings, buffer} = this;
     const strength = Math.min(1, (this.elementPixels - kLeastSidePixels) / (kFullSidePixels - kLeastSidePixels));
     if (!settings.sides || strength <= 0) return;
-    let accept = (f) => mesh.shown[f] === 1;
-    if (mesh.depth) {
-      const seen = new Uint8Array(mesh.faceCount);
-      for (const f of this.ids) if (f >= 0) seen[f] = 1;
-      accept = (f) => seen[f] === 1;
-    }
-    const segments = faceSides(mesh, view, accept);
-    const wanted = this.depthTest(segments, view);
-    strokeSegments(ctx, mesh, view, segments, `rgba(0, 0, 0, ${(0.62 * strength).toFixed(3)})`, 0.8 * view.ratio, wanted);
-  }
-
-  depthTest(segments, view) {
-    const {mesh} = this;
-    return mesh.depth && ((i, x, y) =>
-      this.inFront(view, x, y, (mesh.depth[segments[2 * i]] + mesh.depth[segments[2 * i + 1]]) / 2));
+    const seen = buffer ? buffer.seenFaces(mesh.faceCount) : mesh.shown;
+    const segments = faceSides(mesh, view, (f) => seen[f] === 1, buffer && new Set());
+    strokeSegments(ctx, mesh, view, segments, `rgba(0, 0, 0, ${(0.62 * strength).toFixed(3)})`, 0.8 * view.ratio, buffer);
   }
 
   paintCurves(ctx, view) {
-    const {mesh, settings} = this;
+    const {mesh, settings, buffer} = this;
     const ink = themeColour("curve"), width = Math.min(2.4, Math.max(1.1, 0.2 * this.elementPixels)) * view.ratio;
     if (settings.boundary) {
       // White on dark panes: with a dark rim it can be seen on pale elements, too.
       if (isDark())
         for (const list of [mesh.openEdges, mesh.lines])
-          strokeSegments(ctx, mesh, view, list, "#000000", width + 2 * view.ratio, this.depthTest(list, view));
-      strokeSegments(ctx, mesh, view, mesh.openEdges, ink, width, this.depthTest(mesh.openEdges, view));
-      strokeSegments(ctx, mesh, view, mesh.lines, ink, width, this.depthTest(mesh.lines, view));
+          strokeSegments(ctx, mesh, view, list, "#000000", width + 2 * view.ratio, buffer);
+      strokeSegments(ctx, mesh, view, mesh.openEdges, ink, width, buffer);
+      strokeSegments(ctx, mesh, view, mesh.lines, ink, width, buffer);
       ctx.fillStyle = ink;
       for (const v of mesh.dots) this.paintDot(ctx, view, v, 1.1 * width);
     }
@@ -95,14 +75,15 @@ export class ReportPainter {
       if (mesh.groups[group]?.dim === 1)
         for (const curve of mesh.curves.filter((c) => c.groups.includes(group)))
           strokeSegments(ctx, mesh, view, mesh.lines.subarray(2 * curve.first, 2 * (curve.first + curve.count)),
-                         groupColour(group), Math.max(3.2 * view.ratio, 1.8 * width));
+                         groupColour(group), Math.max(3.2 * view.ratio, 1.8 * width), buffer);
     }
   }
 
   paintDot(ctx, view, v, radius) {
-    const {xy} = this.mesh;
+    const {xy} = this.mesh, x = view.k * xy[2 * v] + view.ox, y = view.oy - view.k * xy[2 * v + 1];
+    if (!this.sees(view, x, y, v)) return;
     ctx.beginPath();
-    ctx.arc(view.k * xy[2 * v] + view.ox, view.oy - view.k * xy[2 * v + 1], radius, 0, 2 * Math.PI);
+    ctx.arc(x, y, radius, 0, 2 * Math.PI);
     ctx.fill();
   }
 
@@ -119,7 +100,7 @@ export class ReportPainter {
         if (String(valence in kMarks ? valence : 0) !== kind || !this.isNodeShown(v)) continue;
         const x = view.k * mesh.xy[2 * v] + view.ox, y = view.oy - view.k * mesh.xy[2 * v + 1];
         if (x < 0 || y < 0 || x > view.width || y > view.height) continue;
-        if (mesh.depth && !this.inFront(view, x, y, mesh.depth[v])) continue;
+        if (!this.sees(view, x, y, v)) continue;
         ctx.beginPath();
         polygonPath(ctx, x, y, radius * mark.size, mark.sides);
         ctx.fill();
@@ -128,6 +109,7 @@ export class ReportPainter {
     }
   }
 
+  sees(view, x, y, v) { return !this.buffer || this.buffer.sees(x, y, view.k * this.mesh.depth[v]); }
   isNodeShown(v) {
     if (!this.hiddenNodes) return true;
     return !this.hiddenNodes[v];
@@ -146,6 +128,7 @@ export class ReportPainter {
   overlay(ctx, view) {
     const {mesh, settings} = this;
     if (settings.selected < 0 || settings.selectedMesh !== mesh) return;
+    ctx.globalAlpha = this.isHidden(settings.selected) ? 0.35 : 1;
     ctx.beginPath();
     mesh.nodesOf(settings.selected).forEach((v, i) => {
       const x = view.k * mesh.xy[2 * v] + view.ox, y = view.oy - view.k * mesh.xy[2 * v + 1];
@@ -159,6 +142,15 @@ export class ReportPainter {
       ctx.lineWidth = width * view.ratio;
       ctx.stroke();
     }
+    ctx.globalAlpha = 1;
+  }
+  // Is the middle of a face behind others, in the picture that was painted last?
+  isHidden(face) {
+    const {mesh, buffer, painted} = this;
+    if (!buffer || !painted) return false;
+    const nodes = mesh.nodesOf(face), mean = (of) => nodes.reduce((sum, v) => sum + of(v), 0) / nodes.length;
+    return !buffer.sees(mean((v) => painted.k * mesh.xy[2 * v] + painted.ox), mean((v) => painted.oy - painted.k * mesh.xy[2 * v + 1]),
+                        mean((v) => painted.k * mesh.depth[v]));
   }
 }
 

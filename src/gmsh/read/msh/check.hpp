@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// The inside of `check_msh_file`: sections of the versions, one after another. Everything that Gmsh's readers take for
-/// granted is looked at: how many there are of what, that numbers stand for something that is there, that types exist.
+/// granted is looked at: counts, that every number refers to something that exists, that types exist.
 
 #include <cstddef>
 #include <cstdint>

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// A header is in the first lines, after comments if there are any.
 constexpr int kLinesToLookAt = 200;
 
-/// For the end of a file: more than any remark that somebody may have left after the mesh.
+/// For the end of a file: longer than any remark that may follow the mesh.
 constexpr std::streamoff kTailToLookAt = 4096;
 
 std::string lower_extension(const std::string& path) {

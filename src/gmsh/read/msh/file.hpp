@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What a .msh file says of itself, read without Gmsh: Gmsh takes what it gets of a file that contradicts itself, and
-/// says something only sometimes.
+/// What a .msh file says about itself, read without Gmsh, which takes what it can get from a file that contradicts
+/// itself and complains only sometimes.
 
 #include <cstddef>
 #include <optional>

@@ -11,7 +11,7 @@
 
 namespace qmorph::adapter {
 
-/// A whole file to look at. Nothing of it is in memory before it is looked at.
+/// A whole file, mapped: nothing of it is in memory before it is looked at.
 class MappedFile {
  public:
   /// \throws InputError

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cleanup/transaction.hpp"
+#include "cleanup/attempt.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
 namespace qmorph::cleanup {
 
@@ -43,7 +43,7 @@ std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> face
 
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate) {
   std::vector<Index> nodes;
-  for (Index h : {candidate.h, kernel::Mesh::twin(candidate.h), candidate.k})
+  for (Index h : std::array<Index, 3>{candidate.h, kernel::Mesh::twin(candidate.h), candidate.k})
     if (h != kNone && mesh.face(h) != kNone)
       for (Index v : topology::nodes_of(mesh, mesh.face(h))) nodes.push_back(v);
   return nodes;
