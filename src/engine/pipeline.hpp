@@ -33,6 +33,7 @@ class Pipeline {
   /// finish() is clean() and polish(). In between, parts that were cleaned side by side may be joined; then irregular
   /// nodes near their interfaces cancel.
   void clean(kernel::Mesh& mesh, const cleanup::CavityLimits& limits = {});
+  /// After clean() within limits.
   void clean_further(kernel::Mesh& mesh);
   void clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface);
   void polish(kernel::Mesh& mesh);
