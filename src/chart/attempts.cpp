@@ -7,15 +7,16 @@
 #include <utility>
 
 #include "chart/irregular_nodes.hpp"
+#include "engine/front_variants.hpp"
 
 namespace qmorph::chart {
 namespace {
 
-/// Larger and smaller angles at which the front turns a corner or takes an edge as a side.
+/// The first of those that add most to each other in the plane.
 std::vector<Options> with_other_fronts(const Options& asked) {
-  std::vector<Options> variants(2, asked);
-  variants[0].front.side_edge_angle *= 1.5;
-  variants[1].front.corner_angle *= 0.9;
+  constexpr std::size_t kTries = 3;
+  std::vector<Options> variants = front_variants(asked);
+  variants.resize(std::min(variants.size(), kTries));
   return variants;
 }
 
@@ -33,7 +34,7 @@ double smallest_sine(const SurfaceMesh& mesh, const Face& face) {
 
 struct Worth {
   double irregular = 0;  ///< irregular nodes a face
-  double sum = 0;  ///< a good shape of all elements counts as much as regular nodes, and more than one poor element
+  double sum = 0;        ///< regular nodes count for more than good shapes, and both for more than one poor element
 
   Worth(const SurfaceMesh& mesh, std::size_t triangles) {
     constexpr double kGoodEnough = 0.4, kTrianglesPerQuad = 2.31, kFairGrowth = 1.25;
@@ -47,7 +48,7 @@ struct Worth {
       mean += sine / faces;
     }
     const double growth = kTrianglesPerQuad * faces / double(triangles);
-    sum = std::min(least, kGoodEnough) + 2 * (mean - irregular) - std::max(0.0, growth - kFairGrowth);
+    sum = std::min(least, kGoodEnough) + 2 * mean - 3 * irregular - std::max(0.0, growth - kFairGrowth);
   }
 };
 

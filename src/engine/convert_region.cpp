@@ -164,7 +164,8 @@ class RegionConverter {
     const std::size_t most_triangles = std::max(options_.retry_triangles, worth.is_poor() ? kTries * size : 0);
     const std::size_t most_faces = kMostGrowth * (count_faces(best.mesh, 4) + kFew);
     const std::vector<Options> variants = front_variants(options_);
-    const std::size_t before = cost_, most_work = is_quick ? kWorkForAnyTries + kWorkForTries * size : kWorkIfPoor * size;
+    const std::size_t before = cost_,
+                      most_work = is_quick ? kWorkForAnyTries + kWorkForTries * size : kWorkIfPoor * size;
     for (; next_variant_ < variants.size(); ++next_variant_) {
       const Options& options = variants[next_variant_];
       if ((next_variant_ + 2) * size > most_triangles || cost_ - before > most_work) break;
