@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 /// Centres nearer to the surface than this are there (edges); up to the second one the pull on them fades.
 constexpr double kThere = 0.01, kNear = 0.03;
 /// Sines of corners that one edge's distance of a centre is worth.
-constexpr double kShapeCost = 0.15;
+constexpr double kShapeCost = 0.2;
 
 class Settling {
  public:
