@@ -125,9 +125,7 @@ class QMORPH_API Observer {
 
   /// A front is about to start: of a region, or of what layers leave of it, of a part of a large region, or of a small
   /// region once more with other constants. The observer that is returned sees its steps; null: none does. Fronts run
-  /// side by
-  /// side: may be
-  /// called from several threads at a time.
+  /// side by side: may be called from several threads at a time.
   virtual std::unique_ptr<FrontObserver> front_starts(const FrontStart&) { return nullptr; }
 
   /// Of the fronts of a surface, those whose quads the result was made from; the others' observers are destroyed. This

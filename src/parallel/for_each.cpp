@@ -18,8 +18,7 @@ namespace qmorph::parallel {
 namespace {
 
 // TBB makes sure that the body of a loop sees what was written before it, and that what the body writes is seen
-// afterwards. The thread
-// sanitizer does not look into TBB and has to be told.
+// afterwards. The thread sanitizer does not look into TBB and has to be told.
 #ifdef __SANITIZE_THREAD__
 char fork;  // its address alone matters: a loop's own data cannot be read before the loop's start is known of
 void before_loop() { __tsan_release(&fork); }

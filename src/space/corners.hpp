@@ -24,8 +24,7 @@ struct CornerNormals {
 /// Sines of the corners in space. Negative where the corner is turned over: the cross product of its sides points away
 /// from the surface's normal near the corner and from the whole element's. It is enough if one of the two agrees: by
 /// the first alone good elements on coarse fillets, where a few triangles turn by a right angle, would be refused. 0
-/// for a
-/// side without length, -1 where a coordinate is NaN.
+/// for a side without length, -1 where a coordinate is NaN.
 template <std::size_t N>
 std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& normals) {
   std::array<double, N> sines;

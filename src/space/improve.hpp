@@ -17,8 +17,7 @@ struct Faults {
 
 /// Improves a mesh that was made in charts of a region, judged in space: it is smoothed, its poor elements are raised,
 /// and those that are turned over are mended. Boundary, fixed nodes and edges on creases stay. `creases` are edges of
-/// the mesh, lower node
-/// first, sorted.
+/// the mesh, lower node first, sorted.
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
                const SmoothingOptions& options);
 

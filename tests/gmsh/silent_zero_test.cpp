@@ -130,7 +130,7 @@ TEST_CASE("silent zero: a STEP file whose faces were not fused") {
   const Result result = run_qmorph({directory / "in.step", "-clmax", "0.25"});
   CHECK(result.status == 0);
   CHECK(mentions(result.err, "nodes lie where another one is"));
-  CHECK(mentions(result.err, "Coherence; in the script"));
+  CHECK(mentions(result.err, "'Coherence;' in the script"));
 }
 
 TEST_CASE("silent zero: sheets that lie over one another are said to, wherever they lie") {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// Cleanup as the thesis describes it (2.2.5, 3.6; after Kinney): chevrons, then rounds of connectivity, boundary and
-/// shape
-/// cleanup, all by the cases of cases.hpp.
+/// shape cleanup, all by the cases of cases.hpp.
 
 #include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"

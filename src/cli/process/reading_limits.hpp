@@ -12,8 +12,7 @@ namespace qmorph::cli {
 /// While it lives, this process may take no more time and memory than reading meshes of this size needs: Gmsh's readers
 /// trust what a broken file says about itself, or search for ever for what it does not have. Beyond the limit the
 /// process dies, or runs out of memory. No limit where one of the files is a script or a geometry, which may take as
-/// long as
-/// it likes.
+/// long as it likes.
 class ReadingLimits {
  public:
   explicit ReadingLimits(const std::vector<std::string>& files);

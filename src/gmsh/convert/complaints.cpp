@@ -30,14 +30,13 @@ void warn_of_loose_parts(const ClassifiedMesh& model, std::vector<std::string>& 
   if (found.count)
     warnings.push_back(
         fmt::format("{} node{} where another one is, as {}: the elements there are not joined. Unless that is meant, "
-                    "as in a crack, "
-                    "Coherence; in the script of a geometry joins them, or Coherence Mesh; in one that merges the mesh",
+                    "as in a crack, 'Coherence;' in the script of a geometry joins them, or 'Coherence Mesh;' in one "
+                    "that merges the mesh",
                     found.count, found.count == 1 ? " lies" : "s lie", describe_node(model.mesh, found.first)));
   if (const auto overlap = find_overlap(model.mesh))
     warnings.push_back(
         fmt::format("surface {} lies over another one, or over itself, at {}: take one of the two out, or fuse them "
-                    "with Coherence; "
-                    "in the script of the geometry",
+                    "with 'Coherence;' in the script of the geometry",
                     overlap->surface, describe(overlap->where)));
 }
 

@@ -14,8 +14,7 @@
 namespace qmorph::adapter {
 
 /// What is worked on as a unit: a surface, or surfaces that are periodic with one another, of which the first is
-/// converted
-/// and the others are its images.
+/// converted and the others are its images.
 struct Job {
   const PeriodicFamily* family = nullptr;
   std::vector<std::uint32_t> entities{};

@@ -14,8 +14,7 @@ namespace qmorph::adapter {
 bool folds_back(const DividedCurve& curve, int segments);
 
 /// Whether the boundary of a planar surface crosses or touches itself; `segments` by curve of the model. Cost: the
-/// square
-/// of the segments; beyond 3000 the question stays open.
+/// square of the segments; beyond 3000 the question stays open.
 bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, const std::vector<int>& segments);
 
 }  // namespace qmorph::adapter

@@ -28,22 +28,20 @@ struct DivisionReport {
 
 /// Has Gmsh mesh the curves of the current model: with its own sizes and numbers, apart from the smallest change that
 /// gives each surface an even boundary and curves that face each other across a band the same numbers. Where a curve
-/// gets another
-/// number than Gmsh gave it, its nodes still lie as its sizes are.
+/// gets another number than Gmsh gave it, its nodes still lie as its sizes are.
 /// \pre within run_logged()
 DivisionReport divide_curves(const DivisionTask& task);
 
 /// Curves that have another number of segments now, and that number: where the curves are too coarse for a surface,
-/// Gmsh
-/// divides some further.
+/// Gmsh divides some further.
 std::map<int, int> find_divided_further(const DivisionReport& report);
 
-/// 3 T + 4 Q = 2 E + B: with T triangles, Q quads and E inner edges, the number B of sides is as odd as T. Linear elements only.
+/// 3 T + 4 Q = 2 E + B: with T triangles, Q quads and E inner edges, the number B of sides is odd where T is. Linear
+/// elements only.
 bool has_odd_boundary(int surface);
 
 /// Or Gmsh would keep to the numbers when it meshes the curves again. Those of extruded curves it keeps: it would
-/// forget
-/// that they are.
+/// forget that they are.
 void forget_division(const DivisionReport& report);
 
 }  // namespace qmorph::adapter

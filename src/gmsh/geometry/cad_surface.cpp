@@ -19,8 +19,7 @@ using Eigen::Vector2d, Eigen::Vector3d;
 /// A node that lies farther from the point at its parameters does not belong to this geometry.
 constexpr double kOnGeometry = 1e-3;
 /// If the surface is farther than this from the triangle, it is another part of the surface: a circle's chord that
-/// turns by 120
-/// degrees has 0.29.
+/// turns by 120 degrees has 0.29.
 constexpr double kFarthest = 0.3;
 /// A Newton step shorter than that is the last: what it leaves is along the surface, not away from it.
 constexpr double kLastStep = 1e-3;

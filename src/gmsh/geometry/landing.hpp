@@ -29,8 +29,7 @@ struct Landing {
 using Lander = std::function<std::vector<Landing>(std::span<const OnInput>)>;
 
 /// Of a surface of a geometry, or of one with curved elements; empty where flat triangles are all there is. The mesh
-/// must
-/// outlive it.
+/// must outlive it.
 Lander find_lander(const ModelMesh& mesh, std::uint32_t entity);
 
 }  // namespace qmorph::adapter

@@ -18,8 +18,7 @@ namespace qmorph::adapter {
 std::vector<ViewStep> merge_file(const std::string& path);
 
 /// To be called after the last file. \throws InputError if some surfaces have elements and others, of a geometry, have
-/// none or
-/// have given their numbers to a mesh: they would be lost
+/// none or have given their numbers to a mesh: they would be lost
 void check_geometry_kept();
 
 }  // namespace qmorph::adapter
