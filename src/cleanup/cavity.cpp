@@ -5,32 +5,16 @@ namespace qmorph::cleanup {
 
 using kernel::Mesh;
 
-namespace {
-
-void next_round(std::uint32_t& round, std::vector<std::uint32_t>& marks) {
-  if (++round != 0) return;
-  marks.assign(marks.size(), 0);  // marks of 2^32 rounds ago would look new
-  round = 1;
-}
-
-}  // namespace
-
 void Cavity::begin() {
   faces_.clear(), outline_.clear(), inner_.clear();
   traced_ = 0;
-  if (face_mark_.size() < mesh_.face_slots()) face_mark_.resize(mesh_.face_slots(), 0);
-  if (node_mark_.size() < mesh_.vertex_slots()) {
-    node_mark_.resize(mesh_.vertex_slots(), 0);
-    leaving_.resize(mesh_.vertex_slots(), kNone);
-  }
-  next_round(round_, face_mark_);
+  if (leaving_.size() < mesh_.vertex_slots()) leaving_.resize(mesh_.vertex_slots(), kNone);
+  inside_.clear();
 }
 
 bool Cavity::add(Index f) {
   if (!mesh_.is_quad(f)) return false;
-  if (face_mark_[f] == round_) return true;
-  face_mark_[f] = round_;
-  faces_.push_back(f);
+  if (inside_.insert(f)) faces_.push_back(f);
   return true;
 }
 
@@ -55,11 +39,8 @@ bool Cavity::start_with_all() {
 /// Whether what is asked for holds for a face around v.
 template <class Test>
 bool Cavity::any_around(Index v, const Test& test) const {
-  Index h = mesh_.out(v);
-  do {
+  for (Index h : mesh_.around(v))
     if (test(mesh_.face(h))) return true;
-    h = mesh_.rotate_ccw(h);
-  } while (h != mesh_.out(v));
   return false;
 }
 
@@ -77,7 +58,7 @@ bool Cavity::add_nodes(const std::vector<Index>& nodes, std::size_t most) {
   bool added = true;
   for (Index v : nodes) added = added && add_around(v);
   if (added && faces_.size() <= most && make_convex(most) && faces_.size() <= most) return true;
-  for (std::size_t k = kept; k < faces_.size(); ++k) face_mark_[faces_[k]] = 0;
+  for (std::size_t k = kept; k < faces_.size(); ++k) inside_.erase(faces_[k]);
   faces_.resize(kept);
   traced_ = kept;
   outline_ = kept_outline_, inner_ = kept_inner_, outer_ = kept_outer_;
@@ -143,13 +124,12 @@ void Cavity::count_outer_edges() {
 
 /// Nodes that have left the outline, or never were on it. False if one is not free.
 bool Cavity::take_inner_nodes() {
-  next_round(trace_, node_mark_);
-  for (Index h : outline_) node_mark_[mesh_.origin(h)] = trace_;
+  taken_.clear();
+  for (Index h : outline_) taken_.insert(mesh_.origin(h));
   bool are_free = true;
   const auto take_node = [&](Index h) {
     const Index v = mesh_.origin(h);
-    if (node_mark_[v] == trace_) return;
-    node_mark_[v] = trace_;
+    if (!taken_.insert(v)) return;
     are_free = are_free && mesh_.is_free(v);
     inner_.push_back(v);
   };

@@ -2,9 +2,9 @@
 #pragma once
 /// A disc of quads that is to be replaced, grown from one irregular node to others.
 
-#include <cstdint>
 #include <vector>
 
+#include "kernel/mark_set.hpp"
 #include "kernel/mesh.hpp"
 
 namespace qmorph::cleanup {
@@ -17,8 +17,8 @@ class Cavity {
   bool start(Index v);
   /// All faces of the mesh. False as above.
   bool start_with_all();
-  /// Adds the quads around these nodes, and those without which the outline would be concave. False, with the disc as it
-  /// was, if that is no disc or has more than `most` quads.
+  /// Adds the quads around these nodes, and those without which the outline would be concave. False, with the disc as
+  /// it was, if that is no disc or has more than `most` quads.
   bool add_nodes(const std::vector<Index>& nodes, std::size_t most);
   /// All quads around v are in the disc.
   bool is_inside(Index v) const;
@@ -33,7 +33,7 @@ class Cavity {
   const std::vector<int>& outer_edges() const { return outer_; }
 
  private:
-  bool contains(Index f) const { return f != kNone && face_mark_[f] == round_; }
+  bool contains(Index f) const { return f != kNone && inside_.contains(f); }
   template <class Test>
   bool any_around(Index v, const Test& test) const;
   bool add(Index f);
@@ -56,10 +56,9 @@ class Cavity {
   std::vector<int> kept_outer_;
   std::size_t traced_ = 0;  ///< faces when the outline was found
   std::vector<int> outer_;
-  std::vector<std::uint32_t> face_mark_, node_mark_;
+  kernel::MarkSet inside_;      ///< `faces_`
+  kernel::MarkSet taken_;       ///< nodes of the outline, and those found inside of it
   std::vector<Index> leaving_;  ///< by node: the half-edge of the outline that starts there
-  std::uint32_t round_ = 0;     ///< of face marks: one a cavity
-  std::uint32_t trace_ = 0;     ///< of node marks: one each time that the outline is found
 };
 
 }  // namespace qmorph::cleanup

@@ -4,17 +4,11 @@
 namespace qmorph::cleanup {
 
 void NearestNodes::start(Index v) {
-  if (mark_.size() < mesh_.vertex_slots()) {
-    mark_.resize(mesh_.vertex_slots(), 0);
-    before_.resize(mesh_.vertex_slots(), kNone);
-  }
-  if (++round_ == 0) {
-    mark_.assign(mark_.size(), 0);
-    round_ = 1;
-  }
+  if (before_.size() < mesh_.vertex_slots()) before_.resize(mesh_.vertex_slots(), kNone);
   found_.assign(1, v);
   left_ = 0;
-  mark_[v] = round_;
+  reached_.clear();
+  reached_.insert(v);
   before_[v] = kNone;
 }
 
@@ -22,16 +16,12 @@ Index NearestNodes::next(std::size_t most) {
   if (left_ == found_.size() || left_ >= most) return kNone;
   const Index v = found_[left_++];
   if (!mesh_.is_free(v)) return v;
-  Index h = mesh_.out(v);
-  do {
+  for (Index h : mesh_.around(v)) {
     const Index u = mesh_.target(h);
-    if (mark_[u] != round_) {
-      mark_[u] = round_;
-      before_[u] = v;
-      found_.push_back(u);
-    }
-    h = mesh_.rotate_ccw(h);
-  } while (h != mesh_.out(v));
+    if (!reached_.insert(u)) continue;
+    before_[u] = v;
+    found_.push_back(u);
+  }
   return v;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 /// Nodes around one, nearest first, and the ways to them.
 
-#include <cstdint>
 #include <vector>
 
+#include "kernel/mark_set.hpp"
 #include "kernel/mesh.hpp"
 
 namespace qmorph::cleanup {
@@ -26,8 +26,7 @@ class NearestNodes {
   std::vector<Index> found_;  ///< in the order in which they were reached
   std::size_t left_ = 0;      ///< of `found_`: from here on nobody has looked
   std::vector<Index> before_;
-  std::vector<std::uint32_t> mark_;
-  std::uint32_t round_ = 0;
+  kernel::MarkSet reached_;
 };
 
 }  // namespace qmorph::cleanup

@@ -78,16 +78,8 @@ std::vector<std::vector<Index>> find_bad_sets(const Mesh& mesh) {
 void spread(Mesh& mesh, const std::vector<Index>& nodes) {
   constexpr int kPasses = 20;
   for (int pass = 0; pass < kPasses; ++pass)
-    for (Index v : nodes) {
-      if (!mesh.is_free(v)) continue;
-      Vec2 sum = Vec2::Zero();
-      int count = 0;
-      for (Index h : mesh.around(v)) {
-        sum += mesh.point(mesh.target(h));
-        ++count;
-      }
-      mesh.set_point(v, sum / count);
-    }
+    for (Index v : nodes)
+      if (mesh.is_free(v)) mesh.set_point(v, topology::middle_of_neighbours(mesh, v));
 }
 
 /// How hard to try: where the nodes start, how far around others move, how often.

@@ -7,8 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "front/mark_set.hpp"
 #include "front/step.hpp"
+#include "kernel/mark_set.hpp"
 
 namespace qmorph::front {
 namespace {
@@ -313,7 +313,7 @@ class Morph {
   LoggedColumn<bool> is_aside_;
   std::vector<Index> aside_;
   std::vector<State> states_;  ///< of front edges, by half-edge, as they were last looked at
-  MarkSet moved_, touched_;
+  kernel::MarkSet moved_, touched_;
   std::vector<Index> edges_;  ///< to enter anew
   std::vector<std::pair<Index, Index>> joins_;
   Index forced_ = kNone;

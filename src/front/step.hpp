@@ -9,8 +9,8 @@
 
 #include "front/front.hpp"
 #include "front/loop_colours.hpp"
-#include "front/mark_set.hpp"
 #include "front/step_reporter.hpp"
+#include "kernel/mark_set.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
 
@@ -35,7 +35,7 @@ struct Step {
   // Scratch space, kept to avoid allocations.
   std::vector<Index> scratch{};
   std::vector<Spoke> spokes{};
-  MarkSet marked{};
+  kernel::MarkSet marked{};
 
   StepNotes notes{};  ///< for those who watch
 };

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "front/front.hpp"
-#include "front/mark_set.hpp"
 #include "front/morph.hpp"
+#include "kernel/mark_set.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/observer.hpp"
 
@@ -54,7 +54,7 @@ class StepReporter {
   std::unique_ptr<FrontObserver> watcher_;
   std::vector<bool> was_front_;  ///< by half-edge
   // Of one step.
-  MarkSet listed_;
+  kernel::MarkSet listed_;
   std::vector<Index> changed_, gone_;
   std::vector<FrontStep::Node> nodes_;
   std::vector<FrontStep::Face> faces_;

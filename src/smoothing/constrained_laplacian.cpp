@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "smoothing/distortion.hpp"
+#include "topology/edits.hpp"
 
 namespace qmorph::smoothing {
 namespace {
@@ -32,13 +33,6 @@ double largest_angle_of(const Mesh& mesh, Index f) {
   double largest = 0;
   for (Index h : mesh.sides_of(f)) largest = std::max(largest, ccw_angle(mesh.vector(h), -mesh.vector(mesh.prev(h))));
   return largest;
-}
-
-Vec2 mean_of_neighbours(const Mesh& mesh, Index v) {
-  Vec2 sum = Vec2::Zero();
-  int count = 0;
-  for (Index h : mesh.around(v)) sum += mesh.point(mesh.target(h)), ++count;
-  return sum / count;
 }
 
 Change compare(const Mesh& mesh, Index v, const std::vector<State>& before, const ThesisSmoothing& options) {
@@ -75,7 +69,7 @@ double move_to_neighbours(Mesh& mesh, Index v, const ThesisSmoothing& options) {
   if (!mesh.is_live_vertex(v) || !mesh.is_free(v)) return 0;
   constexpr int kMostHalvings = 20;
   const double edge = mesh.mean_edge(v);
-  const Vec2 start = mesh.point(v), way = mean_of_neighbours(mesh, v) - start;
+  const Vec2 start = mesh.point(v), way = topology::middle_of_neighbours(mesh, v) - start;
   const std::vector<State> before = states_around(mesh, v, options.coincidence);
   double share = 1;
   for (int i = 0; i < kMostHalvings && share * way.norm() > options.move_tolerance * edge; ++i, share /= 2) {

@@ -35,11 +35,7 @@ void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
 Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v) {
   Vec2 sum = Vec2::Zero();
   int count = 0;
-  Index h = mesh.out(v);
-  do {
-    sum += mesh.point(mesh.target(h)), ++count;
-    h = mesh.rotate_ccw(h);
-  } while (h != mesh.out(v));
+  for (Index h : mesh.around(v)) sum += mesh.point(mesh.target(h)), ++count;
   return sum / count;
 }
 

@@ -4,19 +4,26 @@
 
 #include <vector>
 
-#include "qmorph/patch.hpp"
+#include "qmorph/index.hpp"
 
-namespace qmorph::front {
+namespace qmorph::kernel {
 
 class MarkSet {
  public:
-  void clear() { ++round_; }
+  void clear() {
+    if (++round_ != 0) return;
+    rounds_.assign(rounds_.size(), 0);  // marks of 2^32 rounds ago would look new
+    round_ = 1;
+  }
   /// True if i was not in the set.
   bool insert(Index i) {
     if (i >= rounds_.size()) rounds_.resize(std::size_t(i) + 1 + i / 2, 0);
     if (rounds_[i] == round_) return false;
     rounds_[i] = round_;
     return true;
+  }
+  void erase(Index i) {
+    if (i < rounds_.size()) rounds_[i] = 0;
   }
   bool contains(Index i) const { return i < rounds_.size() && rounds_[i] == round_; }
 
@@ -25,4 +32,4 @@ class MarkSet {
   unsigned round_ = 1;
 };
 
-}  // namespace qmorph::front
+}  // namespace qmorph::kernel
