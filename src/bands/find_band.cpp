@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/worth.hpp"
+
 namespace qmorph::bands {
 namespace {
 
@@ -131,7 +133,6 @@ std::optional<Band> find_band(const Region& region) {
   for (Index v : region.fixed)
     if (!on_boundary[v]) return {};
   std::optional<Band> band = loops.size() == 2 ? ring(loops[0], loops[1]) : strip(loops[0], region.points);
-  constexpr double kTrianglesPerQuad = 2.31;  // of the same sides: 4 / sqrt(3)
   if (band)
     band->rows = std::max(1.0, 2 / kTrianglesPerQuad * double(region.triangles.size()) / double(region.boundary_sides));
   return band;

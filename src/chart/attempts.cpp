@@ -8,6 +8,7 @@
 
 #include "chart/irregular_nodes.hpp"
 #include "engine/front_variants.hpp"
+#include "engine/worth.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -37,7 +38,6 @@ struct Worth {
   double sum = 0;        ///< regular nodes count for more than good shapes, and both for more than one poor element
 
   Worth(const SurfaceMesh& mesh, std::size_t triangles) {
-    constexpr double kGoodEnough = 0.4, kTrianglesPerQuad = 2.31, kFairGrowth = 1.25;
     const std::vector<char> is_irregular = irregular_nodes(mesh, {});
     const double faces = double(mesh.faces.size());
     irregular = double(std::count(is_irregular.begin(), is_irregular.end(), 1)) / faces;
@@ -48,7 +48,7 @@ struct Worth {
       mean += sine / faces;
     }
     const double growth = kTrianglesPerQuad * faces / double(triangles);
-    sum = std::min(least, kGoodEnough) + 2 * mean - 3 * irregular - std::max(0.0, growth - kFairGrowth);
+    sum = std::min(least, qmorph::Worth::kGoodEnough) + 2 * mean - 3 * irregular - std::max(0.0, growth - kFairGrowth);
   }
 };
 

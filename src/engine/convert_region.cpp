@@ -47,11 +47,11 @@ struct Front {
 constexpr std::size_t kWorkPerAttempt = 200;
 /// Of a triangle that is added where a fan is graded: the front's, above all.
 constexpr std::size_t kWorkToGrade = 150;
-/// What tries may cost before the last of them, however small the region is and for each triangle; and for each triangle
-/// if a corner is poor after these.
+/// What tries may cost before the last of them, however small the region is and for each triangle; and for each
+/// triangle if a corner is poor after these.
 constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 6000;
-/// How far cavities grow in a try, until it is known to be the best.
-constexpr int kQuickGrowth = 1;
+/// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
+constexpr int kQuickNodes = 1;
 
 class RegionConverter {
  public:
@@ -194,13 +194,13 @@ class RegionConverter {
     if (way != Way::without_front)
       pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
     cleanup::CavityLimits limits;
-    if (is_quick) limits.most_nodes = kQuickGrowth;
+    if (is_quick) limits.most_nodes = kQuickNodes;
     if (way == Way::one_of_many && is_repeated(front, result.mesh))
       result.fault = SurfaceError("the front has made this before");
     else
       pipeline.clean(result.mesh, limits);
     cost_ += result.mesh.work();
-    if (way == Way::one_of_many) result.promise = judge(result.mesh).sum();
+    if (way == Way::one_of_many && !result.fault) result.promise = judge(result.mesh).sum();
     return result;
   }
 

@@ -19,7 +19,6 @@ double shape(const kernel::Mesh& mesh, Index f) {
 }  // namespace
 
 Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles) {
-  constexpr double kTrianglesPerQuad = 2.31;  // of the same sides: 4 / sqrt(3)
   Worth worth;
   std::size_t faces = 0;
   for (Index f = 0; f < mesh.face_slots(); ++f) {

@@ -8,6 +8,11 @@
 
 namespace qmorph {
 
+/// Quads take the place of so many equilateral triangles with sides as long: 4 / sqrt(3).
+inline constexpr double kTrianglesPerQuad = 2.31;
+/// With more quads than that, by this factor, a mesh is finer than asked for.
+inline constexpr double kFairGrowth = 1.25;
+
 struct Worth {
   double least = 1;   ///< smallest scaled Jacobian of a quad
   double mean = 0;    ///< of shapes
@@ -15,7 +20,7 @@ struct Worth {
   /// Once the worst quad is good enough for every solver, it counts for little, and the others count. Many quads that
   /// are smaller than asked for have good shapes easily, so growth counts against a result.
   double sum() const {
-    constexpr double kLittle = 0.1, kFairGrowth = 1.25;
+    constexpr double kLittle = 0.1;
     return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
            2 * mean - std::max(0.0, growth - kFairGrowth);
   }
