@@ -211,7 +211,12 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
 class LayersOfTriangles {
  public:
   explicit LayersOfTriangles(const std::vector<int>& fields) : fields_(fields) { set_quads(0); }
-  ~LayersOfTriangles() { set_quads(1); }
+  ~LayersOfTriangles() {
+    try {
+      set_quads(1);
+    } catch (...) {  // a destructor cannot report it
+    }
+  }
   LayersOfTriangles(const LayersOfTriangles&) = delete;
   LayersOfTriangles& operator=(const LayersOfTriangles&) = delete;
 
@@ -257,8 +262,8 @@ bool has_loose_curve() {
   });
 }
 
-/// Where curves as they were planned have not made every region even: Gmsh may have divided them further while it meshed
-/// the surfaces, and the plan knows only what lies on a surface by its definition.
+/// Where curves as they were planned have not made every region even: Gmsh may have divided them further while it
+/// meshed the surfaces, and the plan knows only what lies on a surface by its definition.
 EvenReport mend_parity(const MeshingTask& task, const DivisionReport& division, const std::vector<int>& keep_curves) {
   const std::vector<int> surfaces = surfaces_of(task);
   const bool as_planned = find_divided_further(division).empty() && !has_loose_curve();
