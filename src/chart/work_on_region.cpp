@@ -353,7 +353,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
       if (best.doubtful == 0 || size > kFew) return std::move(*best.work);
     }
   }
-  // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads then.
+  // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads
+  // then.
   constexpr std::size_t kNotMany = 2000;
   const int refinings = size <= kFew ? 3 : size <= kNotMany && !best.work ? 1 : 0;
   Distrust nodes;

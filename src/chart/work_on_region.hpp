@@ -21,7 +21,8 @@ struct RegionWork {
 };
 
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
-/// and mends in space, for about as much work as is allowed (engine/allowance.hpp). What fails, or is doubtful, is tried again in other ways.
+/// and mends in space, for about as much work as is allowed (engine/allowance.hpp). What fails, or is doubtful, is
+/// tried again in other ways.
 /// \throws SurfaceError
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
 

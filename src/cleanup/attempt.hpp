@@ -28,8 +28,8 @@ std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candida
 /// Carries out `edit(nodes)`, which changes the topology and appends the nodes around, removes the doublets that
 /// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`. Otherwise the mesh is
 /// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after. What is worth
-/// more than something that `accept` takes, it takes as well: so where not even best_worth_around() is accepted, nothing
-/// is relaxed.
+/// more than something that `accept` takes, it takes as well: so where not even best_worth_around() is accepted,
+/// nothing is relaxed.
 template <class Edit, class Accept>
 bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
              std::vector<Index>& nodes, const Edit& edit, const Accept& accept);

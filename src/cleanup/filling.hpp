@@ -22,8 +22,8 @@ struct Filling {
 };
 
 /// A path cuts a corner off the ring, from the place `ahead` edges after it to the one `back` edges before it. What is
-/// cut off is filled between three corners, the rest between five. Either may have a spoke of no length: then its node is
-/// on the cut.
+/// cut off is filled between three corners, the rest between five. Either may have a spoke of no length: then its node
+/// is on the cut.
 struct PairFilling {
   int corner = 0;  ///< the place of the corner that is cut off
   int ahead = 0, back = 0;

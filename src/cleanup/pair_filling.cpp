@@ -31,8 +31,8 @@ struct Place {
   int across, up, to_cut;
 };
 
-/// Edges from the node of five to the sides of its pentagon: the rest of the first side, the second, the third, the rest
-/// of the fourth, the cut.
+/// Edges from the node of five to the sides of its pentagon: the rest of the first side, the second, the third, the
+/// rest of the fourth, the cut.
 std::array<int, 5> pentagon_sides(const Corners& corners, const Place& place) {
   const auto& side = corners.side;
   return {side[0] - place.across - place.to_cut, side[1], side[2], side[3] - place.up - place.to_cut,

@@ -20,9 +20,9 @@ struct CavityLimits {
   FillingSize size;
 };
 
-/// Grows a disc of quads from each irregular node to others and replaces it by a filling (filling.hpp) whose valences score
-/// better, in a transaction that is kept only if the elements around are good enough afterwards. The outline stays, so
-/// do boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
+/// Grows a disc of quads from each irregular node to others and replaces it by a filling (filling.hpp) whose valences
+/// score better, in a transaction that is kept only if the elements around are good enough afterwards. The outline
+/// stays, so do boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {},
                              const CavityLimits& limits = {});
 

@@ -10,8 +10,8 @@ namespace qmorph::elimination {
 
 /// What may be done so that two triangles meet.
 enum class Means {
-  moving,  ///< nodes may move, as far as shapes allow it with reasonable effort
-  cutting,  ///< where that fails, the quads between them are cut up: always possible, but the elements are poor (see certain.hpp)
+  moving,   ///< nodes may move, as far as shapes allow it with reasonable effort
+  cutting,  ///< where that fails, the quads between them are cut up: always possible, but the elements are poor
 };
 
 /// Pairs the triangles that are left, best shape first, then passes triangles along the shortest chain of

@@ -126,8 +126,8 @@ std::vector<Row> Planner::alike(const IntervalProblem& problem) {
   return sets.members();
 }
 
-/// A balanced band is even by itself, and so is then what its surface has besides. A change that goes through the surface
-/// takes two curves of the band or two of the rest, and never one of each.
+/// A balanced band is even by itself, and so is then what its surface has besides. A change that goes through the
+/// surface takes two curves of the band or two of the rest, and never one of each.
 std::vector<Row> Planner::rows() const {
   std::vector<Row> rows;
   for (const std::vector<Index>& surface : problem_.surfaces) rows.push_back(row_of(surface));

@@ -3,9 +3,9 @@
 /// How many segments each curve of a model gets: as near to what is wished as possible, but so that the boundary of
 /// each surface has an even number, and that curves that face each other across a band have the same.
 ///
-/// This is interval assignment [Mitchell00]. Three steps stand for its integer program: curves that must or may be alike
-/// become one; bands with several curves on a side are balanced along cheapest paths, as a flow is; what parities are
-/// left to mend is a T-join (plan.hpp), whose paths keep the bands balanced.
+/// This is interval assignment [Mitchell00]. Three steps stand for its integer program: curves that must or may be
+/// alike become one; bands with several curves on a side are balanced along cheapest paths, as a flow is; what parities
+/// are left to mend is a T-join (plan.hpp), whose paths keep the bands balanced.
 
 #include <utility>
 #include <vector>
@@ -41,8 +41,9 @@ struct IntervalPlan {
   std::size_t fitting = 0;    ///< bands whose sides have as many segments
 };
 
-/// Never changes a fixed number, nor goes below the least. A curve of one segment is divided only if other ways are much
-/// longer. As many surfaces become even as the curves allow. Cost: as `plan_cheapest`, and (segments that the bands lack) * (curves).
+/// Never changes a fixed number, nor goes below the least. A curve of one segment is divided only if other ways are
+/// much longer. As many surfaces become even as the curves allow. Cost: as `plan_cheapest`, and (segments that the
+/// bands lack) * (curves).
 QMORPH_API IntervalPlan plan_intervals(const IntervalProblem& problem);
 
 }  // namespace qmorph::parity

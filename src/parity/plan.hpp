@@ -8,8 +8,8 @@
 /// what is wanted; the outside takes any number. The cheapest such set consists of paths that pair the odd regions
 /// [J. Edmonds, E. Johnson, Matching, Euler tours and the Chinese postman, 1973].
 ///
-/// Where surfaces meet in space an edge may be shared by three and more, and be no link of a graph. Such edges are split
-/// where all others are not enough (shared_by_many.hpp).
+/// Where surfaces meet in space an edge may be shared by three and more, and be no link of a graph. Such edges are
+/// split where all others are not enough (shared_by_many.hpp).
 
 #include <cstdint>
 #include <vector>
@@ -43,9 +43,10 @@ struct Plan {
 };
 
 /// The fewest splits, and of those with as few the ones on the longest edges. As many regions become even as the links
-/// allow. Exact, unless more than 160 odd regions hang together: of these some are paired with what is near; and but for
-/// links of three and more regions, of which cheap ones are taken. Cost: (odd regions) * (links) * log, the matching of the
-/// odd regions, and (links of three and more that differ) * (sets of regions that no other link leaves)^2.
+/// allow. Exact, unless more than 160 odd regions hang together: of these some are paired with what is near; and but
+/// for links of three and more regions, of which cheap ones are taken. Cost: (odd regions) * (links) * log, the
+/// matching of the odd regions, and (links of three and more that differ) * (sets of regions that no other link
+/// leaves)^2.
 QMORPH_API Plan plan_splits(const std::vector<bool>& odd, const std::vector<Link>& links);
 /// The same for the least sum of costs.
 QMORPH_API Plan plan_cheapest(std::vector<bool> odd, const std::vector<PricedLink>& links);

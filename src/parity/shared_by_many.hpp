@@ -2,10 +2,10 @@
 #pragma once
 /// Edges that three and more surfaces share: to split one changes the parity of all of them.
 ///
-/// Links of one or two regions bring oddness together, and out, as far as they lead; what they join is an island, and its
-/// parity is all that is left to say of it. An island from which a link leads to the outside can be made even in any
-/// case. The others ask for a set of links of many regions that changes the odd ones among them, which is a linear system
-/// over two elements.
+/// Links of one or two regions bring oddness together, and out, as far as they lead; what they join is an island, and
+/// its parity is all that is left to say of it. An island from which a link leads to the outside can be made even in
+/// any case. The others ask for a set of links of many regions that changes the odd ones among them, which is a linear
+/// system over two elements.
 
 #include <vector>
 

@@ -16,8 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vec3 = Eigen::Vector3d;
 
-/// A film, and where it is seen: a point (x, y) of it at `at + x * u + y * w`, along the frame's axes; those of a curved
-/// surface at their places.
+/// A film, and where it is seen: a point (x, y) of it at `at + x * u + y * w`, along the frame's axes; those of a
+/// curved surface at their places.
 struct PlacedFilm {
   const Film* film = nullptr;
   int surface = 0;

@@ -22,8 +22,8 @@ std::optional<PictureColour> find_picture_colour(std::string_view name);
 
 /// Draws a scene, its longer side 400 points: faces by colour, their sides, boundary and curves, nodes with other than
 /// four edges (three: orange triangle, five: blue pentagon, others: black disc). Of a scene in space, or of a flat one
-/// that is looked at from elsewhere, what is hidden is left out; without colours its faces are in the light of a lamp at
-/// the eye. Sizes are coloured by their logarithm between the smallest and the largest.
+/// that is looked at from elsewhere, what is hidden is left out; without colours its faces are in the light of a lamp
+/// at the eye. Sizes are coloured by their logarithm between the smallest and the largest.
 Drawing draw(const Scene& scene, PictureColour colour, const Viewpoint& from = Viewpoint::Zero());
 
 /// The scene with its surfaces as they were after a stage. \pre the recorder has kept the meshes of the stages.

@@ -23,7 +23,8 @@ struct Turn {
   Eigen::Matrix3d rows() const;
 };
 
-/// None for a flat scene that is seen from where it is seen best; a scene in space is then seen from the side and above.
+/// None for a flat scene that is seen from where it is seen best; a scene in space is then seen from the side and
+/// above.
 Turn turn_of(const Frame& frame, const Viewpoint& from);
 
 }  // namespace qmorph::report

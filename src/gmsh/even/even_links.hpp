@@ -25,8 +25,8 @@ std::uint32_t curve_under(const ModelMesh& mesh, Index row_a, Index row_b);
 /// \param surfaces indices of the surfaces to be converted
 /// \param keep_curves tags of curves that get no node
 /// Edges that are images of one another (periodic curves) get a node together, and count as often. Nor do edges get a
-/// node if an element beside them is not a triangle of these surfaces, if a volume or more than two elements of one surface
-/// use them, or if elements of several orders do.
+/// node if an element beside them is not a triangle of these surfaces, if a volume or more than two elements of one
+/// surface use them, or if elements of several orders do.
 RegionGraph find_region_graph(const ModelMesh& mesh, const NodeUse& use, const std::vector<std::uint32_t>& surfaces,
                               const std::set<int>& keep_curves);
 

@@ -179,8 +179,8 @@ Faults mend(const std::vector<int>& volumes) {
   return faults;
 }
 
-/// By how much Gmsh moves nodes before it begins, in sizes of the model: the first one as it is set. Whether elements of
-/// thin corners fit in the end is chance.
+/// By how much Gmsh moves nodes before it begins, in sizes of the model: the first one as it is set. Whether elements
+/// of thin corners fit in the end is chance.
 std::vector<double> perturbations() { return {get_option("Mesh.RandomFactor3D"), 1e-9, 1e-7}; }
 
 /// Meshes the volumes, and once more as long as something does not fit; in the end as it was best.

@@ -19,8 +19,8 @@ constexpr int kSweeps = 40;
 constexpr int kRings = 2;
 /// Of the mean edge at a node: the first step of its search, and the last.
 constexpr double kFirstStep = 0.25, kLastStep = 0.004;
-/// The least volume at a corner that is aimed at, in the mean edge's cube: a cube's corner has 1. Sweep by sweep it gets
-/// smaller, for large elements meet small ones, and slivers.
+/// The least volume at a corner that is aimed at, in the mean edge's cube: a cube's corner has 1. Sweep by sweep it
+/// gets smaller, for large elements meet small ones, and slivers.
 constexpr double kAim = 0.02, kNextAim = 0.75;
 
 /// The three edges of an ideal corner as columns, inverted.
