@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <queue>
+#include <span>
 
 #include "chart/topology.hpp"
 
@@ -43,21 +45,29 @@ std::vector<Terminal> terminals_of(const Piece& piece) {
   return terminals;
 }
 
-/// Edges of the piece by point.
-std::vector<std::vector<Index>> neighbours_of(const Piece& piece) {
-  std::vector<std::vector<Index>> neighbours(piece.points.size());
-  for (const Face& face : piece.faces)
-    for (Index i = 0; i < degree(face); ++i) {
-      const Index a = face[i], b = face[next_corner(face, i)];
-      neighbours[a].push_back(b);
-      neighbours[b].push_back(a);
-    }
-  return neighbours;
-}
+/// The points at the other ends of edges, by point.
+class Neighbours {
+ public:
+  explicit Neighbours(const Piece& piece) : first_(piece.points.size() + 1, 0) {
+    const auto for_sides = [&](const auto& visit) {
+      for (const Face& face : piece.faces)
+        for (Index i = 0; i < degree(face); ++i) visit(face[i], face[next_corner(face, i)]);
+    };
+    for_sides([&](Index a, Index b) { ++first_[a], ++first_[b]; });
+    std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), Index(0));
+    list_.resize(first_.back());
+    std::vector<Index> next(first_.begin(), first_.end() - 1);
+    for_sides([&](Index a, Index b) { list_[next[a]++] = b, list_[next[b]++] = a; });
+  }
+  std::span<const Index> of(Index v) const { return {list_.data() + first_[v], list_.data() + first_[v + 1]}; }
+
+ private:
+  std::vector<Index> first_, list_;
+};
 
 class Joining {
  public:
-  explicit Joining(const Piece& piece) : piece_(piece), neighbours_(neighbours_of(piece)) {}
+  explicit Joining(const Piece& piece) : piece_(piece), neighbours_(piece) {}
 
   /// The shortest path from a set of points to another, touching neither in between.
   std::vector<Index> shortest(const std::vector<Index>& from, const std::vector<char>& is_goal) const {
@@ -74,7 +84,7 @@ class Joining {
         while (before[path.back()] != kNone) path.push_back(before[path.back()]);
         return path;
       }
-      for (Index w : neighbours_[v]) {
+      for (Index w : neighbours_.of(v)) {
         const double length = distance[v] + (piece_.points[w] - piece_.points[v]).norm();
         if (length < distance[w]) distance[w] = length, before[w] = v, waiting.emplace(-length, w);
       }
@@ -84,7 +94,7 @@ class Joining {
 
  private:
   const Piece& piece_;
-  const std::vector<std::vector<Index>> neighbours_;
+  const Neighbours neighbours_;
 };
 
 }  // namespace

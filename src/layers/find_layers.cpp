@@ -8,6 +8,7 @@
 #include "layers/pair.hpp"
 #include "layers/remnants.hpp"
 #include "layers/strips.hpp"
+#include "layers/tips.hpp"
 #include "layers/walls.hpp"
 
 namespace qmorph::layers {
@@ -145,7 +146,8 @@ std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& w
   const std::vector<Cut> cuts = make_even(cells, regions);
   Layers layers;
   layers.patch = Writer(cells, cuts).write();
-  pair_remnants(layers.patch);
+  const std::size_t pairs = pair_remnants(layers.patch);
+  widen_tips(layers.patch, layers.patch.quads.size() - pairs);
   layers.quads = layers.patch.quads.size() - patch.quads.size();
   if (layers.quads == 0) return std::nullopt;
   layers.regions = regions.sizes.size();

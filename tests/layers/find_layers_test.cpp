@@ -11,6 +11,7 @@
 
 #include "qmorph/convert.hpp"
 #include "qmorph/observer.hpp"
+#include "support/draft.hpp"
 #include "support/invariants.hpp"
 
 namespace {
@@ -133,6 +134,18 @@ TEST_CASE("layers: heights may grow, double and differ from column to column") {
   CHECK(whole_cells(grid(20, 6, place), 20, 6) == 120);
 }
 
+TEST_CASE("layers: round a sharp corner without a fan, the last cells of both walls slant to meet") {
+  constexpr double kHalf = 18 * std::numbers::pi / 180;  // of the wall's angle
+  const auto place = [](Index i, Index j) {
+    const double along = std::abs(double(i) - 4), side = i < 4 ? 1 : -1, height = 0.01 * (std::pow(1.5, j) - 1);
+    if (i == 4) return Vector3d(height, 0, 0);
+    return Vector3d(-along * std::cos(kHalf) + height * std::sin(kHalf),
+                    -side * (along * std::sin(kHalf) + height * std::cos(kHalf)), 0);
+  };
+  for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
+    CHECK(whole_cells(grid(8, 6, place, diagonals), 8, 6) == 48);
+}
+
 TEST_CASE("layers: a surface in space has its layers, flat or not") {
   const auto place = [](Index i, Index j) { return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j); };
   CHECK(whole_cells(grid(40, 8, place), 40, 8) == 320);
@@ -202,6 +215,13 @@ TEST_CASE(
     const std::size_t cells = 8 * rows + 2 * spokes * (rows - 1), more = spokes % 2 == 1 ? 2 * (rows - 1) : 0;
     const std::size_t tips = spokes == 2 ? 0 : 2 * std::size_t((spokes + 1) / 2);  // in pairs, if not straight ones
     CHECK(report.layer_quads == cells + more + tips);
+    double least = 1;
+    for (std::size_t q = 0; q < report.layer_quads; ++q) {
+      std::array<Eigen::Vector2d, 4> corners;
+      for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.points[mesh.quads[q][i]].head<2>();
+      least = std::min(least, qmorph::test::smallest_sine(corners));
+    }
+    CHECK(least > 0.6);
   }
 }
 
