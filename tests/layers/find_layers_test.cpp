@@ -265,6 +265,17 @@ TEST_CASE("layers: of one row with four nodes more on one side, two stretches be
   CHECK(report.layer_quads >= kCells - 2 * 12);
 }
 
+TEST_CASE("layers: where a row is no layer after all, the cell that it ends in is none either") {
+  // Eight cells between two walls, and one more below a triangle, in a tip that is too large to be all cells.
+  Patch patch = grid(9, 1, rectangles(4, 1));
+  const Index a = 9, b = 18, c = 19;  // the lower right corner, and the upper side of the last cell
+  const Index peak = Index(patch.points.size()), tip = peak + 1;
+  patch.points.emplace_back(36, 1.6, 0);
+  patch.points.emplace_back(40, 0.3, 0);
+  patch.triangles.insert(patch.triangles.end(), {{b, c, peak}, {a, tip, c}, {c, tip, peak}});
+  CHECK(layer_quads(patch) == 0);
+}
+
 TEST_CASE("layers: without the option there are none") {
   const Patch patch = grid(8, 6, rectangles(10, 1));
   qmorph::Options options;
