@@ -8,6 +8,7 @@
 #include "chart/rework.hpp"
 #include "chart/windows.hpp"
 #include "kernel/sort_unique.hpp"
+#include "smoothing/node_energy.hpp"
 #include "smoothing/smooth.hpp"
 
 namespace qmorph::chart {
@@ -77,8 +78,9 @@ bool merge_in(kernel::Mesh& mesh, Index from, Index into) {
   std::vector<Index> around;
   for (Index e : mesh.around(into)) around.push_back(mesh.target(e));
   constexpr int kPasses = 3;
+  smoothing::Star star;
   for (int pass = 0; pass < kPasses; ++pass)
-    for (Index v : around) smoothing::relax_node(mesh, v);
+    for (Index v : around) smoothing::relax_node(mesh, v, star);
   const bool good = mesh.is_star_above(into, kLeastSine) &&
                     std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); });
   good ? mesh.commit() : mesh.rollback();
