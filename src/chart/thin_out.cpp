@@ -105,13 +105,14 @@ std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, 
                             std::vector<Edge>& interface, const space::Background& background) {
   if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
   const std::vector<Merge> merges = choose(mesh, size, creases, interface);
+  if (merges.empty()) return {};
   std::vector<Index> goes_into(mesh.points.size(), kNone);
   std::vector<char> waiting(mesh.points.size(), 0);
   for (const Merge& merge : merges) goes_into[merge.from] = merge.into, waiting[merge.from] = 1;
   std::vector<Index> stays(mesh.points.size());  // where interfaces run now
   std::iota(stays.begin(), stays.end(), 0);
   std::vector<Index> changed;
-  while (true) {
+  while (is_any(waiting)) {
     const std::vector<Index> opposite = opposite_sides(mesh);
     const std::vector<Window> windows = take_windows(mesh, opposite, sides_on(mesh, creases), kWindow, waiting);
     if (windows.empty()) break;
