@@ -258,7 +258,7 @@ class Worker {
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
     bool changed = false;
-    while (true) {
+    while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
       const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
@@ -272,6 +272,7 @@ class Worker {
       changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
+    return changed;
   }
 
   const CurvedRegion& region_;

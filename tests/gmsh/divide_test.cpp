@@ -165,6 +165,44 @@ TEST_CASE("divide: an edge shorter than the size stays one segment") {
   CHECK(worst > 0.4);
 }
 
+TEST_CASE("divide: each side of a small triangle in a plate has two segments, and no quad is poor") {
+  Rng rng(3);
+  for (int trial = 0; trial < 6; ++trial) {
+    // Of sides that are about as long as a size, and nearly alike.
+    const double turn = rng.between(0, 2 * M_PI), radius = rng.between(0.2, 0.27);
+    std::string script = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {-2, -2, 0, 4, 4};\n";
+    for (int k = 0; k < 3; ++k) {
+      const double angle = turn + (2 * k + rng.between(-0.2, 0.2)) * M_PI / 3;
+      script +=
+          fmt::format("Point({}) = {{{}, {}, 0}};\n", 101 + k, radius * std::cos(angle), radius * std::sin(angle));
+    }
+    script +=
+        "Line(101) = {101, 102}; Line(102) = {102, 103}; Line(103) = {103, 101};\nCurve Loop(101) = {101:103}; Plane "
+        "Surface(2) = {101};\nBooleanFragments{Surface{1}; Delete;}{Surface{2}; Delete;}\nMesh.MeshSizeMax = 0.5;\n";
+    const auto [after, worst] = convert(script);
+    CAPTURE(trial);
+    int sides = 0;
+    for (const adapter::EntityMesh& entity : after.mesh.entities)
+      if (entity.dim == 1 && entity.element_count() == 2) ++sides;
+    CHECK(sides == 3);
+    CHECK(worst > 0.55);
+  }
+}
+
+TEST_CASE("divide: where another curve can make a boundary even, those at an acute corner keep Gmsh's numbers") {
+  // A kite with a corner of about 30 degrees: two sides of 20 segments, and 23 on the others. By its length a long side
+  // costs least to change.
+  const Snapshot after =
+      convert(
+          "Point(1) = {0, 0, 0, 0.1}; Point(2) = {1.9, 0.52, 0, 0.1}; Point(3) = {2.63, 0.24, 0, 0.1};\n"
+          "Point(4) = {2.63, -0.45, 0, 0.1}; Point(5) = {1.9, -0.52, 0, 0.1};\n"
+          "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 1};\n"
+          "Curve Loop(1) = {1:5}; Plane Surface(1) = {1};\n")
+          .snapshot;
+  CHECK(segments(after, 1) == 20);
+  CHECK(segments(after, 5) == 20);
+}
+
 TEST_CASE("divide: a graded curve stays as graded with another number of segments") {
   // 1 to 10 along the bottom. A kept curve at the top makes the sum odd or even.
   const auto script = [](double top) {

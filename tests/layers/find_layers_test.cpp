@@ -225,6 +225,23 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("layers: where each row would end in a triangle, rows are not cut in two for it") {
+  constexpr Index kCells = 20, kRows = 16;
+  Patch patch = grid(kCells, kRows, [](Index i, Index j) { return Vector3d(0.5 * i + j, j, 0); }, Diagonals::falling);
+  for (Index j = 0; j < kRows; ++j) {  // beside the last column, four triangles around a node
+    const Index a = j * (kCells + 1) + kCells, d = a + kCells + 1;
+    const Vector3d p = patch.points[a], q = patch.points[d], right(1.5, 0, 0);
+    if (j == 0) patch.points.push_back(p + right);
+    const Index b = Index(patch.points.size() - 1);
+    patch.points.insert(patch.points.end(), {(p + q + right) / 2, q + right});
+    patch.triangles.insert(patch.triangles.end(), {{a, b, b + 1}, {b, b + 2, b + 1}, {b + 2, d, b + 1}, {d, a, b + 1}});
+  }
+  const auto [mesh, report] = qmorph::convert(patch);
+  const auto broken = qmorph::test::broken_invariants(patch, mesh);
+  CHECK_MESSAGE(broken.empty(), broken.front());
+  CHECK(2 * mesh.quads.size() < patch.triangles.size() + patch.triangles.size() / 4);
+}
+
 TEST_CASE("layers: of one row with four nodes more on one side, two stretches between two of these are lost at most") {
   constexpr Index kCells = 60;
   const std::set<Index> more = {10, 20, 29, 39};

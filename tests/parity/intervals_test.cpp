@@ -184,6 +184,19 @@ TEST_CASE("intervals: an edge of one segment is not halved where a longer one wi
   CHECK(plan.segments == std::vector<int>{1, 8, 30, 3});
 }
 
+TEST_CASE("intervals: of two curves the one that counts for less changes") {
+  for (const Index heavy : {0, 1}) {
+    IntervalProblem problem;
+    problem.curves = {wish_for(10.5), wish_for(9.5)};  // 11 + 10
+    problem.curves[heavy].weight = 4;
+    problem.surfaces = {{0, 1}};
+    const IntervalPlan plan = plan_intervals(problem);
+    CAPTURE(heavy);
+    CHECK(plan.odd.empty());
+    CHECK(plan.segments[heavy] == problem.curves[heavy].segments);
+  }
+}
+
 TEST_CASE("intervals: both sides of a thin ring, and of rings around it, get as many as each other") {
   // Rings between circles, each of which is one curve; the innermost circle is around a disc.
   for (const int rings : {1, 2, 5}) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "gmsh/divide/bands.hpp"
+#include "gmsh/divide/corners.hpp"
 #include "gmsh/divide/crossings.hpp"
 #include "gmsh/divide/curves.hpp"
 #include "gmsh/divide/cuts.hpp"
@@ -67,6 +68,7 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const st
     if (is_divided(model, surface))  // each curve by itself, so that it does not matter which of them is around what
       for (const std::vector<Index>* curves : {&surface.boundary, &surface.embedded})
         for (Index c : *curves) problem.surfaces.push_back({c});
+  heed_corners(model, problem);
   problem.images = model.images;
   problem.bands = find_bands(model);
   return problem;
