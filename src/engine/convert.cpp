@@ -80,7 +80,11 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   for (int i = 0; options.layers && i < kTries; ++i) {
     const auto layers = layers::find_layers(patch, stuck);
     if (!layers) break;
-    if (plane) require_no_overlap(Surface(patch, *plane).regions, *plane);
+    if (plane) {
+      const Surface whole(patch, *plane);
+      require_fronts(whole.regions, *plane);
+      require_no_overlap(whole.regions, *plane);
+    }
     std::vector<bool> stuck_now(layers->patch.points.size(), false);
     SurfaceWork work = convert_triangles(layers->patch, plane, options, &stuck_now);
     if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
