@@ -56,8 +56,8 @@ Plane axes_for(const Vector3d& normal) {
     u = (u - u.dot(normal) / normal.squaredNorm() * normal).normalized();
     v = normal.cross(u).normalized();
   }
-  plane.axis_u = plane.dual_u = u;
-  plane.axis_v = plane.dual_v = v;
+  plane.axis_u = u;
+  plane.axis_v = v;
   return plane;
 }
 
