@@ -25,7 +25,7 @@ struct Terminal {
   double size = 0;
 };
 
-std::vector<Terminal> terminals_of(const Piece& piece) {
+std::vector<Terminal> terminals_of(const Piece& piece, const std::vector<double>& defects) {
   std::vector<Terminal> terminals;
   std::vector<char> is_outer(piece.points.size(), 0);
   for (std::vector<Index>& loop : loops_of(piece)) {
@@ -37,7 +37,6 @@ std::vector<Terminal> terminals_of(const Piece& piece) {
     terminal.points = std::move(loop);
     terminals.push_back(std::move(terminal));
   }
-  const std::vector<double> defects = angle_defects(piece);
   for (Index v = 0; v < piece.points.size(); ++v)
     if (!is_outer[v] && defects[v] > kTip) terminals.push_back({{v}, -1 / defects[v]});
   std::stable_sort(terminals.begin(), terminals.end(),
@@ -99,8 +98,8 @@ class Joining {
 
 }  // namespace
 
-std::vector<std::vector<Index>> opening_paths(const Piece& piece) {
-  const std::vector<Terminal> terminals = terminals_of(piece);
+std::vector<std::vector<Index>> opening_paths(const Piece& piece, const std::vector<double>& defects) {
+  const std::vector<Terminal> terminals = terminals_of(piece, defects);
   if (terminals.size() < 2) return {};
   const Joining joining(piece);
   std::vector<std::vector<Index>> paths;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
@@ -124,6 +125,18 @@ class RegionConverter {
     }
   }
 
+  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth more.
+  void take_chords(Attempt& best) {
+    constexpr double kPoor = 0.3;
+    const Worth worth = judge(best.mesh);
+    if (best.fault || worth.least >= kPoor) return;
+    auto chords = bands::lay_chords(region_);
+    if (!chords) return;
+    Attempt laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
+    finish(laid);
+    if (!laid.fault && judge(laid.mesh).sum() > worth.sum()) best = std::move(laid);
+  }
+
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
   /// front begins with.
   Attempt best_of_tries(std::size_t size) {
@@ -133,6 +146,7 @@ class RegionConverter {
     Attempt best = begin(start_, options_, allowed_, Way::one_of_many);
     finish(best);
     take_rows(best);
+    take_chords(best);
     Worth worth = judge(best.mesh);
     if (best.fault || worth.least < kHopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;
