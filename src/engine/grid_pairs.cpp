@@ -68,7 +68,7 @@ class Diagonals {
   }
 
   const Mesh& mesh_;
-  std::vector<Index> diagonal_;          ///< by face
+  std::vector<Index> diagonal_;         ///< by face
   std::deque<Index> clear_, doubtful_;  ///< to be set next
 };
 

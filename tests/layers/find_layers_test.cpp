@@ -227,7 +227,8 @@ TEST_CASE(
 
 TEST_CASE("layers: where each row would end in a triangle, rows are not cut in two for it") {
   constexpr Index kCells = 20, kRows = 16;
-  Patch patch = grid(kCells, kRows, [](Index i, Index j) { return Vector3d(0.5 * i + j, j, 0); }, Diagonals::falling);
+  Patch patch = grid(
+      kCells, kRows, [](Index i, Index j) { return Vector3d(0.5 * i + j, j, 0); }, Diagonals::falling);
   for (Index j = 0; j < kRows; ++j) {  // beside the last column, four triangles around a node
     const Index a = j * (kCells + 1) + kCells, d = a + kCells + 1;
     const Vector3d p = patch.points[a], q = patch.points[d], right(1.5, 0, 0);
