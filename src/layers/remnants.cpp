@@ -5,36 +5,10 @@
 #include <map>
 
 #include "layers/forest.hpp"
+#include "layers/walls.hpp"
 
 namespace qmorph::layers {
 namespace {
-
-template <class IsIn>
-Parts parts_of(const Sides& sides, const IsIn& is_in) {
-  Parts parts;
-  parts.part_of.assign(sides.count() / 3, kNone);
-  std::vector<Index> open;
-  for (Index first = 0; first < parts.part_of.size(); ++first) {
-    if (!is_in(first) || parts.part_of[first] != kNone) continue;
-    const Index part = Index(parts.sizes.size());
-    parts.sizes.push_back(0);
-    parts.part_of[first] = part;
-    open.push_back(first);
-    while (!open.empty()) {
-      const Index t = open.back();
-      open.pop_back();
-      ++parts.sizes[part];
-      for (Index c = 3 * t; c < 3 * t + 3; ++c) {
-        if (sides.is_wall(c)) continue;
-        const Index other = sides.opposite(c) / 3;
-        if (!is_in(other) || parts.part_of[other] != kNone) continue;
-        parts.part_of[other] = part;
-        open.push_back(other);
-      }
-    }
-  }
-  return parts;
-}
 
 /// The cut that begins at side c of a free triangle; nothing if it does not lead to another one, along one column.
 std::optional<Cut> cut_from(const Cells& cells, Index c) {
@@ -240,9 +214,16 @@ void drop_broken_rows(Cells& cells, const Parts& regions) {
         visit(i, regions.part_of[cells[i].triangles[0]]);
   };
   for_each_single([&](Index, Index region) { ++singles[region]; });
+  std::vector<bool> is_broken(regions.sizes.size(), false);
   for_each_single([&](Index i, Index region) {
-    if (2 * double(singles[region]) < kWhole * double(regions.sizes[region])) cells.drop(i);
+    if (2 * double(singles[region]) >= kWhole * double(regions.sizes[region])) return;
+    cells.drop(i);
+    is_broken[region] = true;
   });
+  // What the row ended in is no row any more.
+  for (Index i = 0; i < cells.size(); ++i)
+    if (cells.is_live(i) && is_broken[regions.part_of[cells[i].triangles[0]]] && cells.row_length(i, 0, kRow) < kRow)
+      cells.drop(i);
 }
 
 std::vector<Cut> make_even(Cells& cells, const Parts& regions) {

@@ -78,7 +78,8 @@ bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   return valid;
 }
 
-/// As below; `star` is scratch space.
+}  // namespace
+
 double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   if (!mesh.is_live_vertex(v) || !mesh.is_free(v)) return 0;
   const double edge = mesh.length(mesh.out(v));
@@ -119,6 +120,8 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   }
   return 0;
 }
+
+namespace {
 
 /// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
 ///

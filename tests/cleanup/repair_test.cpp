@@ -106,7 +106,7 @@ TEST_CASE("repair: two changes together raise poor quads that one alone does not
   CHECK(changes > 0);
 }
 
-TEST_CASE("repair: a third quad shares a corner of the boundary that keeps two nearer to straight than to right") {
+TEST_CASE("repair: a boundary corner whose two quads are closer to straight than to right-angled gets a third quad") {
   Mesh mesh = outside_of_wedge(290 * kDegree, 8);
   REQUIRE(mesh.valence(0) == 3);
   REQUIRE(worst_at(mesh, 0) < 0.6);  // sin 145 degrees
