@@ -5,26 +5,41 @@
 #include <limits>
 #include <queue>
 #include <set>
+#include <utility>
 
 namespace qmorph::chart {
 namespace {
 
 Eigen::Vector3d in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
+std::vector<Index> halves_at(std::size_t points, const std::vector<Chart::Triangle>& triangles) {
+  std::vector<Index> half_at(points, kNone);
+  for (Index t = 0; t < triangles.size(); ++t)
+    for (Index v : triangles[t]) half_at[v] = t;
+  return half_at;
+}
+
 }  // namespace
 
 Chart::Chart(const Piece& piece, int rounds)
-    : piece_(piece),
+    : points_(piece.points),
+      triangles_(piece.halves),
       barriers_(piece.barriers()),
       surface_(piece.points, piece.halves, barriers_),
       flattening_(flatten(surface_, piece.points.size(), rounds)),
-      half_at_(piece.points.size(), kNone) {
-  for (Index t = 0; t < piece.halves.size(); ++t)
-    for (Index v : piece.halves[t]) half_at_[v] = t;
-}
+      half_at_(halves_at(piece.points.size(), piece.halves)) {}
+
+Chart::Chart(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles,
+             std::vector<space::Background::Edge> barriers, Flattening flattening)
+    : points_(points),
+      triangles_(triangles),
+      barriers_(std::move(barriers)),
+      surface_(points, triangles, barriers_),
+      flattening_(std::move(flattening)),
+      half_at_(halves_at(points.size(), triangles)) {}
 
 Eigen::Vector3d Chart::weights(Index half, const Vec2& p) const {
-  const auto& t = piece_.halves[half];
+  const auto& t = triangles_[half];
   const Vec2 &a = flat()[t[0]], &b = flat()[t[1]], &c = flat()[t[2]];
   const Eigen::Vector3d areas(cross(b - p, c - p), cross(c - p, a - p), cross(a - p, b - p));
   return areas / areas.sum();
@@ -75,7 +90,7 @@ Chart::Place Chart::nearest(const Vec2& p, Index hint) const {
 Chart::Place Chart::nearest_of_all(const Vec2& p) const {
   Place best;
   double least = std::numeric_limits<double>::infinity();
-  for (Index half = 0; half < piece_.halves.size(); ++half) {
+  for (Index half = 0; half < triangles_.size(); ++half) {
     const space::OnTriangle point = closest(p, half);
     if (point.distance2 < least) least = point.distance2, best = {half, point.weights};
   }
@@ -83,42 +98,51 @@ Chart::Place Chart::nearest_of_all(const Vec2& p) const {
 }
 
 space::OnTriangle Chart::closest(const Vec2& p, Index half) const {
-  const auto& t = piece_.halves[half];
+  const auto& t = triangles_[half];
   return space::closest_on_triangle(in_space(p), in_space(flat()[t[0]]), in_space(flat()[t[1]]),
                                     in_space(flat()[t[2]]));
 }
 
 Eigen::Vector3d Chart::to_space(const Place& place) const {
-  const auto& t = piece_.halves[place.half];
-  return place.weights[0] * piece_.points[t[0]] + place.weights[1] * piece_.points[t[1]] +
-         place.weights[2] * piece_.points[t[2]];
+  const auto& t = triangles_[place.half];
+  return place.weights[0] * points_[t[0]] + place.weights[1] * points_[t[1]] + place.weights[2] * points_[t[2]];
+}
+
+std::vector<Chart::Place> Chart::places(const kernel::Mesh& mesh) const {
+  std::vector<Place> places(mesh.vertex_slots(), Place{.half = kNone});
+  std::vector<Index> order;
+  for (Index v = 0; v < flat().size(); ++v) {
+    if (!mesh.is_live_vertex(v) || has_moved(mesh, v)) continue;
+    places[v].half = half_at(v);
+    for (int i = 0; i < 3; ++i) places[v].weights[i] = triangles_[half_at(v)][i] == v;
+    order.push_back(v);
+  }
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (Index h : mesh.around(order[k]))
+      if (const Index v = mesh.target(h); places[v].half == kNone) {
+        places[v] = locate(mesh.point(v), places[order[k]].half);
+        order.push_back(v);
+      }
+  return places;
 }
 
 Lifted lift(const kernel::Mesh& mesh, const Piece& piece, const Chart& chart, const space::Background& background) {
   Lifted lifted{std::vector<Eigen::Vector3d>(mesh.vertex_slots(), Eigen::Vector3d::Zero()),
                 std::vector<Index>(mesh.vertex_slots(), kNone)};
-  std::vector<Index> half(mesh.vertex_slots(), kNone), face_of_half(piece.halves.size(), 0), order;
+  std::vector<Index> face_of_half(piece.halves.size(), 0);
   for (Index f = 0; f < piece.faces.size(); ++f)
     for (Index h = piece.first_half[f]; h < piece.first_half[f] + degree(piece.faces[f]) - 2; ++h) face_of_half[h] = f;
-  for (Index v = 0; v < piece.points.size(); ++v) {
-    if (!mesh.is_live_vertex(v) || mesh.point(v) != chart.flat()[v]) continue;
-    half[v] = chart.half_at(v);
-    lifted.points[v] = piece.points[v];
-    lifted.on[v] = piece.on[v];
-    order.push_back(v);
-  }
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    for (Index h : mesh.around(order[k])) {
-      const Index v = mesh.target(h);
-      if (half[v] == kNone) {
-        const Chart::Place place = chart.locate(mesh.point(v), half[order[k]]);
-        const space::Foot foot = background.walk(chart.to_space(place), piece.near[face_of_half[place.half]]);
-        half[v] = place.half;
-        lifted.points[v] = foot.point;
-        lifted.on[v] = foot.triangle;
-        order.push_back(v);
-      }
+  const std::vector<Chart::Place> places = chart.places(mesh);
+  for (Index v = 0; v < places.size(); ++v) {
+    if (places[v].half == kNone) continue;
+    if (!chart.has_moved(mesh, v)) {
+      lifted.points[v] = piece.points[v];
+      lifted.on[v] = piece.on[v];
+      continue;
     }
+    const space::Foot foot = background.walk(chart.to_space(places[v]), piece.near[face_of_half[places[v].half]]);
+    lifted.points[v] = foot.point;
+    lifted.on[v] = foot.triangle;
   }
   return lifted;
 }

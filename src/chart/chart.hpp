@@ -9,7 +9,12 @@ namespace qmorph::chart {
 
 class Chart {
  public:
+  using Triangle = space::Background::Triangle;
+
   explicit Chart(const Piece& piece, int rounds = kAllRounds);
+  /// Of triangles that were laid flat already. The arrays must outlive it.
+  Chart(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles,
+        std::vector<space::Background::Edge> barriers, Flattening flattening);
   Chart(const Chart&) = delete;
   Chart& operator=(const Chart&) = delete;
 
@@ -18,7 +23,7 @@ class Chart {
 
   /// A point of the chart. Charts may lie over themselves, so it takes a triangle to say where.
   struct Place {
-    Index half = 0;  ///< of the piece
+    Index half = 0;  ///< triangle; of a piece, of its halves
     Eigen::Vector3d weights = Eigen::Vector3d::UnitX();
   };
   /// The place at p, or the nearest to it, that a walk from `hint` comes to.
@@ -26,7 +31,11 @@ class Chart {
   /// The same without a hint: one of the places at p, if there are several. Cost: linear.
   Place nearest_of_all(const Vec2& p) const;
   Eigen::Vector3d to_space(const Place& place) const;
-  /// Some triangle at a point of the piece.
+  /// Where the nodes of a mesh in the chart are, by vertex slot; `half` is kNone for dead ones. Those of the chart's
+  /// points that have not moved are known, and from there each is found by a walk from a neighbour's place.
+  std::vector<Place> places(const kernel::Mesh& mesh) const;
+  bool has_moved(const kernel::Mesh& mesh, Index v) const { return v >= flat().size() || mesh.point(v) != flat()[v]; }
+  /// Some triangle at a point.
   Index half_at(Index point) const { return half_at_[point]; }
 
  private:
@@ -34,7 +43,8 @@ class Chart {
   space::OnTriangle closest(const Vec2& p, Index half) const;
   Place nearest(const Vec2& p, Index hint) const;
 
-  const Piece& piece_;
+  const std::vector<Eigen::Vector3d>& points_;
+  const std::vector<Triangle>& triangles_;
   std::vector<space::Background::Edge> barriers_;
   space::Background surface_;
   Flattening flattening_;

@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <limits>
+#include <utility>
 
 #include "chart/turn_back.hpp"
 
@@ -59,6 +61,26 @@ struct Map {
   static double size(const Complex& z) { return std::sqrt(std::norm(z)); }
 };
 
+/// By the lengths of its sides.
+Shape shape_of(std::span<const double, 3> sides) {
+  const auto [ab, bc, ca] = std::array{sides[0], sides[1], sides[2]};
+  const double longest = std::max({ab, bc, ca});
+  Shape shape;
+  shape.base = std::max(ab, kLeastHeight * longest);
+  const double along = (shape.base * shape.base + ca * ca - bc * bc) / (2 * shape.base);
+  const double height2 = ca * ca - along * along;
+  shape.tip = {along, std::max(height2 > 0 ? std::sqrt(height2) : 0, kLeastHeight * longest)};
+  return shape;
+}
+
+std::vector<Shape> shapes_of(const space::Background& surface, std::span<const double> lengths) {
+  std::vector<Shape> shapes;
+  shapes.reserve(surface.triangles());
+  for (Index t = 0; t < surface.triangles(); ++t)
+    shapes.push_back(lengths.empty() ? shape_of(surface, t) : shape_of(lengths.subspan(3 * t).first<3>()));
+  return shapes;
+}
+
 Map map_of(const Shape& shape, const Complex& p, const Complex& q, const Complex& r) {
   const Complex along = (q - p) / shape.base;
   const Complex up = ((r - p) - along * shape.tip.real()) / shape.tip.imag(), across(up.imag(), -up.real());
@@ -87,9 +109,8 @@ Complex product(const Complex& a, const Complex& b) {
 
 class Flattening2D {
  public:
-  Flattening2D(const space::Background& surface, std::size_t points)
-      : surface_(surface), points_(points, Vec2::Zero()) {
-    for (Index t = 0; t < surface.triangles(); ++t) shapes_.push_back(shape_of(surface, t));
+  Flattening2D(const space::Background& surface, std::vector<Shape> shapes, std::size_t points)
+      : surface_(surface), shapes_(std::move(shapes)), points_(points, Vec2::Zero()) {
     scale();
     unfold();
     factorise();
@@ -248,14 +269,12 @@ class Flattening2D {
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 
-}  // namespace
-
-void measure_distortion(const space::Background& surface, Flattening& flattening) {
+void measure_distortion(const space::Background& surface, const std::vector<Shape>& shapes, Flattening& flattening) {
   std::vector<double> ratios{1}, factors{1};
   ratios.reserve(surface.triangles() + 1), factors.reserve(surface.triangles() + 1);
   flattening.flipped = 0;
   for (Index t = 0; t < surface.triangles(); ++t) {
-    const Shape shape = shape_of(surface, t);
+    const Shape& shape = shapes[t];
     const Map map = map_of(surface, shape, t, flattening.points);
     const double larger = map.larger(), smaller = std::max(map.smaller(), kFlat * larger);
     flattening.flipped += !is_upright(surface, t, flattening.points);
@@ -272,11 +291,14 @@ void measure_distortion(const space::Background& surface, Flattening& flattening
   flattening.scaling = high(factors);
 }
 
-Flattening flatten(const space::Background& surface, std::size_t points, int rounds) {
+}  // namespace
+
+Flattening flatten(const space::Background& surface, std::size_t points, int rounds, std::span<const double> lengths) {
+  const std::vector<Shape> shapes = shapes_of(surface, lengths);
   Flattening flattening;
-  flattening.points = Flattening2D(surface, points).run(rounds);
-  measure_distortion(surface, flattening);
-  if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, flattening);
+  flattening.points = Flattening2D(surface, shapes, points).run(rounds);
+  measure_distortion(surface, shapes, flattening);
+  if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, shapes, flattening);
   return flattening;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 /// Triangles of a surface in the plane, with the lengths and angles that they have in space as far as that is possible.
 
+#include <span>
 #include <vector>
 
 #include "geometry/vec2.hpp"
@@ -26,9 +27,8 @@ inline constexpr int kAllRounds = 30, kFewRounds = 4;
 /// piece of the surface has a boundary; it may have holes. A cone, a tube that is cut open, a plate are flattened
 /// exactly; elsewhere the result says how far off it is. Cost: one sparse factorisation, some solves: near
 /// linear.
-Flattening flatten(const space::Background& surface, std::size_t points, int rounds = kAllRounds);
-
-/// The distortion of points that were found elsewhere.
-void measure_distortion(const space::Background& surface, Flattening& flattening);
+/// \param lengths by side of the surface, to flatten with instead of those in space
+Flattening flatten(const space::Background& surface, std::size_t points, int rounds = kAllRounds,
+                   std::span<const double> lengths = {});
 
 }  // namespace qmorph::chart

@@ -8,9 +8,9 @@
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
-#include "engine/stretch.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
+#include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
 namespace {
@@ -21,11 +21,14 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
                               std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
   if (!plane) return chart::convert_curved(patch, options, stuck);
-  const Surface surface(patch, options.layers ? unstretched(*plane, patch) : *plane);
+  const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);
   const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
     try {
+      if (options.layers)
+        if (auto mesh = stretch::convert_stretched(surface.regions[r], surface.plane, own, allowed, report, record))
+          return std::move(*mesh);
       return convert_region(surface.regions[r], surface.plane, own, allowed, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
@@ -80,7 +83,11 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   for (int i = 0; options.layers && i < kTries; ++i) {
     const auto layers = layers::find_layers(patch, stuck);
     if (!layers) break;
-    if (plane) require_no_overlap(Surface(patch, *plane).regions, *plane);
+    if (plane) {
+      const Surface whole(patch, *plane);
+      require_fronts(whole.regions, *plane);
+      require_no_overlap(whole.regions, *plane);
+    }
     std::vector<bool> stuck_now(layers->patch.points.size(), false);
     SurfaceWork work = convert_triangles(layers->patch, plane, options, &stuck_now);
     if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {

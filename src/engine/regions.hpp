@@ -15,13 +15,12 @@
 namespace qmorph {
 
 /// The plane of a surface: u runs along `axis_u`, v along `axis_v`, their cross product is the normal that the elements
-/// follow. Products with the dual axes are u and v; they are the axes themselves unless these are no unit vectors.
+/// follow.
 struct Plane {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_u = Eigen::Vector3d::UnitX(), axis_v = Eigen::Vector3d::UnitY();
-  Eigen::Vector3d dual_u = axis_u, dual_v = axis_v;
   Eigen::Vector3d normal() const { return axis_u.cross(axis_v); }
-  Vec2 to_plane(const Eigen::Vector3d& p) const { return {(p - origin).dot(dual_u), (p - origin).dot(dual_v)}; }
+  Vec2 to_plane(const Eigen::Vector3d& p) const { return {(p - origin).dot(axis_u), (p - origin).dot(axis_v)}; }
   /// Set where the plane is a chart of a curved surface: the point of the surface that a point of the chart stands for.
   std::function<Eigen::Vector3d(const Vec2&)> curved = {};
   Eigen::Vector3d to_space(const Vec2& p) const { return curved ? curved(p) : on_plane(p); }

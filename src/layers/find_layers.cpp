@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "layers/chance_rows.hpp"
 #include "layers/pair.hpp"
 #include "layers/remnants.hpp"
 #include "layers/strips.hpp"
@@ -156,6 +157,7 @@ std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& w
   const Parts regions = all_parts(sides);
   drop_broken_rows(cells, regions);
   fill_gaps(cells);
+  drop_chance_rows(cells, thin);
   drop_cells_at(cells, without);
   const std::vector<Cut> cuts = make_even_by_few_cuts(cells, regions);
   Layers layers;

@@ -10,33 +10,6 @@
 namespace qmorph::layers {
 namespace {
 
-template <class IsIn>
-Parts parts_of(const Sides& sides, const IsIn& is_in) {
-  Parts parts;
-  parts.part_of.assign(sides.count() / 3, kNone);
-  std::vector<Index> open;
-  for (Index first = 0; first < parts.part_of.size(); ++first) {
-    if (!is_in(first) || parts.part_of[first] != kNone) continue;
-    const Index part = Index(parts.sizes.size());
-    parts.sizes.push_back(0);
-    parts.part_of[first] = part;
-    open.push_back(first);
-    while (!open.empty()) {
-      const Index t = open.back();
-      open.pop_back();
-      ++parts.sizes[part];
-      for (Index c = 3 * t; c < 3 * t + 3; ++c) {
-        if (sides.is_wall(c)) continue;
-        const Index other = sides.opposite(c) / 3;
-        if (!is_in(other) || parts.part_of[other] != kNone) continue;
-        parts.part_of[other] = part;
-        open.push_back(other);
-      }
-    }
-  }
-  return parts;
-}
-
 /// The cut that begins at side c of a free triangle; nothing if it does not lead to another one, along one column.
 std::optional<Cut> cut_from(const Cells& cells, Index c) {
   const Sides& sides = cells.sides();

@@ -6,12 +6,40 @@
 
 namespace qmorph::layers {
 
-/// Triangles joined through edges that are no walls. Of all triangles, or of the free ones.
+/// Triangles joined through edges that are no walls. Of all triangles, of the free ones, or of others.
 struct Parts {
   std::vector<Index> part_of;      ///< by triangle; kNone if it is taken
   std::vector<std::size_t> sizes;  ///< triangles by part; as odd as the number of the part's sides
   bool is_odd(Index part) const { return sizes[part] % 2 != 0; }
 };
+
+/// Of those triangles for which is_in(triangle) holds.
+template <class IsIn>
+Parts parts_of(const Sides& sides, const IsIn& is_in) {
+  Parts parts;
+  parts.part_of.assign(sides.count() / 3, kNone);
+  std::vector<Index> open;
+  for (Index first = 0; first < parts.part_of.size(); ++first) {
+    if (!is_in(first) || parts.part_of[first] != kNone) continue;
+    const Index part = Index(parts.sizes.size());
+    parts.sizes.push_back(0);
+    parts.part_of[first] = part;
+    open.push_back(first);
+    while (!open.empty()) {
+      const Index t = open.back();
+      open.pop_back();
+      ++parts.sizes[part];
+      for (Index c = 3 * t; c < 3 * t + 3; ++c) {
+        if (sides.is_wall(c)) continue;
+        const Index other = sides.opposite(c) / 3;
+        if (!is_in(other) || parts.part_of[other] != kNone) continue;
+        parts.part_of[other] = part;
+        open.push_back(other);
+      }
+    }
+  }
+  return parts;
+}
 
 Parts all_parts(const Sides& sides);
 Parts free_parts(const Cells& cells);

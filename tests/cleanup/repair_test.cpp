@@ -57,7 +57,7 @@ double worst_at(const Mesh& mesh, Index v) {
 
 }  // namespace
 
-TEST_CASE("repair: a third quad shares a corner of the boundary that keeps two nearer to straight than to right") {
+TEST_CASE("repair: a boundary corner whose two quads are closer to straight than to right-angled gets a third quad") {
   Mesh mesh = outside_of_wedge(290 * kDegree, 8);
   REQUIRE(mesh.valence(0) == 3);
   REQUIRE(worst_at(mesh, 0) < 0.6);  // sin 145 degrees

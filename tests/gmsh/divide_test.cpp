@@ -85,7 +85,7 @@ std::string motor(int inner, int outer, double gap, double size, double turn) {
 
 }  // namespace
 
-TEST_CASE("divide: the two sides of a thin ring get as many segments, wherever they are cut") {
+TEST_CASE("divide: the two sides of a thin ring get equally many segments, wherever they are cut") {
   Rng rng(1);
   for (int trial = 0; trial < 6; ++trial) {
     const int inner = rng.range(3, 7), outer = rng.range(3, 7);
@@ -203,7 +203,7 @@ TEST_CASE("divide: where another curve can make a boundary even, those at an acu
   CHECK(segments(after, 5) == 20);
 }
 
-TEST_CASE("divide: a graded curve stays as graded with another number of segments") {
+TEST_CASE("divide: a graded curve keeps its grading with another number of segments") {
   // 1 to 10 along the bottom. A kept curve at the top makes the sum odd or even.
   const auto script = [](double top) {
     return fmt::format(
@@ -226,7 +226,7 @@ TEST_CASE("divide: a graded curve stays as graded with another number of segment
   }
 }
 
-TEST_CASE("divide: curves that are to be kept have Gmsh's own number") {
+TEST_CASE("divide: curves that are to be kept keep Gmsh's number") {
   // 7 + 5 + 7 + 6 and a hole of 5 + 5: one of all has to give way.
   const std::string script =
       "Point(1) = {0, 0, 0, 0.15}; Point(2) = {1, 0, 0, 0.15}; Point(3) = {1, 0.7, 0, 0.15}; Point(4) = {0, 0.85, 0, "
@@ -275,7 +275,7 @@ TEST_CASE("divide: where surfaces meet by threes in a curve, all of them are eve
   }
 }
 
-TEST_CASE("divide: circles that are as coarse as circles may be can have one segment more") {
+TEST_CASE("divide: circles that are as coarse as allowed can get one segment more") {
   const Converted converted = convert(
       "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 0.1}; Rectangle(2) = {-1, -1, 0, 2, 2};\n"
       "BooleanFragments{ Surface{1, 2}; Delete; }{}\nMeshSize{:} = 0.5;\n");

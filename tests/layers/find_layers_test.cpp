@@ -91,7 +91,7 @@ TEST_CASE("layers: squares and rectangles of 2 to 1 are no layers") {
       }
 }
 
-TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short cells is none") {
+TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short cells is no layer") {
   for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
     for (const double lean : {-1.0, 0.5, 1.0}) {
       const auto leaning = [&](double length) {
@@ -104,7 +104,7 @@ TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short
     }
 }
 
-TEST_CASE("layers: equilateral triangles are none, however they are stretched") {
+TEST_CASE("layers: equilateral triangles form none, however they are stretched") {
   for (const double stretch : {1.0, 5.0, 20.0}) {
     const auto place = [&](Index i, Index j) { return Vector3d(stretch * (i + 0.5 * j), 0.87 * j, 0); };
     CHECK(layer_quads(grid(20, 20, place, Diagonals::falling)) == 0);
@@ -161,7 +161,7 @@ TEST_CASE("layers: a constraint is a wall on both sides, and no cell crosses it"
   CHECK(kept > 40);
 }
 
-TEST_CASE("layers: quads that are there already stay first") {
+TEST_CASE("layers: quads of the input stay first") {
   Patch patch = grid(10, 6, rectangles(10, 1));
   patch.triangles.erase(patch.triangles.begin(), patch.triangles.begin() + 20);
   for (Index i = 0; i < 10; ++i) patch.quads.push_back({i, i + 1, i + 12, i + 11});
@@ -276,7 +276,7 @@ TEST_CASE("layers: where a row is no layer after all, the cell that it ends in i
   CHECK(layer_quads(patch) == 0);
 }
 
-TEST_CASE("layers: without the option there are none") {
+TEST_CASE("layers: without the option none are found") {
   const Patch patch = grid(8, 6, rectangles(10, 1));
   qmorph::Options options;
   options.layers = false;

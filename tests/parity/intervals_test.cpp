@@ -176,7 +176,7 @@ TEST_CASE("intervals: what is even already stays as it is") {
   CHECK(std::all_of(plan.segments.begin(), plan.segments.end(), [](int n) { return n == 11; }));
 }
 
-TEST_CASE("intervals: an edge of one segment is not halved where a longer one will do") {
+TEST_CASE("intervals: an edge of one segment is not halved where a longer curve will do") {
   IntervalProblem problem;
   problem.curves = {wish_for(0.7), wish_for(7.2), wish_for(30.4), wish_for(2.9)};  // 1 + 8 + 31 + 3
   problem.surfaces = {{0, 1, 2, 3}};
@@ -197,7 +197,7 @@ TEST_CASE("intervals: of two curves the one that counts for less changes") {
   }
 }
 
-TEST_CASE("intervals: both sides of a thin ring, and of rings around it, get as many as each other") {
+TEST_CASE("intervals: both sides of a thin ring, and of rings around it, get the same number") {
   // Rings between circles, each of which is one curve; the innermost circle is around a disc.
   for (const int rings : {1, 2, 5}) {
     IntervalProblem problem;
@@ -248,7 +248,7 @@ TEST_CASE("intervals: sides of several curves get the same sums, and keep them w
   CHECK(fitting == bands);
 }
 
-TEST_CASE("intervals: images stay alike, whatever lies between them") {
+TEST_CASE("intervals: periodic images keep equal numbers, whatever lies between them") {
   Rng rng(5);
   for (int trial = 0; trial < 200; ++trial) {
     CAPTURE(trial);

@@ -145,7 +145,7 @@ TEST_CASE("layers: nodes of layers stay where they are but at tips, in any posit
   }
 }
 
-TEST_CASE("layers: on a cylinder they are as on the plane that is rolled up, and so is what is between them") {
+TEST_CASE("layers: on a cylinder they are those of the plane that was rolled up, and so is what lies between them") {
   std::size_t flat_quads = 0, quads = 0;
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
@@ -193,7 +193,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("layers: ordinary random domains have hardly any") {
+TEST_CASE("layers: ordinary random domains have almost none") {
   std::size_t triangles = 0, layer_quads = 0;
   for (std::uint64_t seed = 0; seed < seeds(200, 60); ++seed) {
     const auto patch = qmorph::test::random_domain(seed).patch;
@@ -205,7 +205,7 @@ TEST_CASE("layers: ordinary random domains have hardly any") {
   CHECK(double(layer_quads) < 0.02 * double(triangles));  // strips and ribbons are among them
 }
 
-TEST_CASE("stretched triangles: what is no layer becomes quads of the same sizes, as stretched as the triangles") {
+TEST_CASE("stretched triangles: outside of layers they become quads of the same sizes, as stretched as the triangles") {
   std::size_t flat_quads = 0, quads = 0, flat_kept = 0, kept = 0;
   const auto is_kept = [](const qmorph::Patch& before, const QuadMesh& after) {
     return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <=

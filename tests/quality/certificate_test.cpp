@@ -44,7 +44,7 @@ TEST_CASE("certificate: good quads need none") {
   CHECK(explain(grid.patch, grid.mesh).empty());
 }
 
-TEST_CASE("certificate: a poor quad in the open is ours, with its place and figure") {
+TEST_CASE("certificate: a poor quad far from any constraint is our fault, and has a place and a figure") {
   Grid grid;
   grid.mesh.points[11 * 5 + 5] = Vector3d(5.93, 5.93, 0);  // nearly on the diagonal of a quad
   const auto poor = explain(grid.patch, grid.mesh);
@@ -109,7 +109,7 @@ TEST_CASE("certificate: a crease is an edge that is kept") {
     CHECK(quad.reason != PoorBecause::boundary_angle);
 }
 
-TEST_CASE("certificate: a quad that is alone between four kept edges, though no corner is too sharp") {
+TEST_CASE("certificate: a quad between four kept edges, even where no corner is too sharp") {
   Patch patch;
   patch.points = {{0, 0, 0}, {1, -0.9, 0}, {2, 0, 0}, {1, 0.05, 0}};  // nearly straight at the last one
   patch.triangles = {{0, 1, 3}, {1, 2, 3}};
@@ -181,7 +181,7 @@ TEST_CASE("certificate: beside a long kept edge the second row of elements is in
   CHECK(poor[0].reason == PoorBecause::narrow);
 }
 
-TEST_CASE("certificate: lines that are kept count as boundaries do") {
+TEST_CASE("certificate: lines that are kept count as boundaries") {
   Grid grid;
   for (Index i = 0; i < 10; ++i) grid.patch.constraints.push_back({11 * 5 + i, 11 * 5 + i + 1});
   for (int i = 0; i <= 10; ++i) {  // the row above comes near to the line, and half a step aside
@@ -211,7 +211,7 @@ TEST_CASE("certificate: beside the triangle of an odd region") {
   for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::odd_region);
 }
 
-TEST_CASE("certificate: quads of the input are the input's") {
+TEST_CASE("certificate: quads of the input are the input's responsibility") {
   Grid grid;
   grid.mesh.points[11 * 5 + 5] = grid.patch.points[11 * 5 + 5] = Vector3d(5.93, 5.93, 0);
   grid.patch.quads = grid.mesh.quads;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+/// A region of triangles that are stretched, and are no layers, becomes quads that are stretched alike.
+
+#include <optional>
+
+#include "engine/record.hpp"
+#include "engine/regions.hpp"
+#include "kernel/mesh.hpp"
+#include "qmorph/options.hpp"
+#include "qmorph/report.hpp"
+
+namespace qmorph::stretch {
+
+/// As convert_region(), in a chart in which the triangles are about as long as wide. Nothing if the region is not
+/// stretched, has no such chart, or has no valid result in it. Cost where nothing is stretched: some nanoseconds a triangle.
+std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane& plane, const Options& options,
+                                              double allowed, ConversionReport& report, Record& record);
+
+}  // namespace qmorph::stretch

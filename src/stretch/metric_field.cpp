@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stretch/metric_field.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace qmorph::stretch {
+
+using Eigen::Vector3d;
+
+MetricField::MetricField(const space::Background& surface) : surface_(surface), nodes_(surface.points().size()) {
+  add_axes();
+  add_metrics();
+}
+
+/// In a coordinate plane the axes are those of the coordinates.
+void MetricField::add_axes() {
+  for (Index t = 0; t < surface_.triangles(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      Node& node = nodes_[surface_.corners(t)[std::size_t(i)]];
+      if (node.axis_u.squaredNorm() > 0) continue;
+      const Vector3d& normal = surface_.corner_normal(t, i);
+      Eigen::Index dominant = 0;
+      normal.cwiseAbs().maxCoeff(&dominant);
+      const Vector3d along = Vector3d::Unit((dominant + 1) % 3);
+      node.axis_u = (along - along.dot(normal) * normal).normalized();
+      node.axis_v = normal.cross(node.axis_u);
+    }
+}
+
+void MetricField::add_metrics() {
+  for (Index t = 0; t < surface_.triangles(); ++t) {
+    const Vector3d &a = surface_.corner(t, 0), &b = surface_.corner(t, 1), &c = surface_.corner(t, 2);
+    for (Index v : surface_.corners(t)) {
+      Node& node = nodes_[v];
+      const auto in_plane = [&](const Vector3d& side) { return Vec2(side.dot(node.axis_u), side.dot(node.axis_v)); };
+      const auto metric = metric_of(in_plane(b - a), in_plane(c - b), in_plane(a - c));
+      if (!metric) continue;
+      node.metric += *metric;
+      ++node.triangles;
+    }
+  }
+  for (Node& node : nodes_)
+    if (node.triangles > 0) node.metric = node.metric * (1 / node.triangles);
+}
+
+/// By the mean of the two metrics, after that of the second was turned to the axes of the first.
+double MetricField::length(Index from, Index to) const {
+  if (from > to) std::swap(from, to);
+  const Node &a = nodes_[from], &b = nodes_[to];
+  const double angle = std::atan2(b.axis_u.dot(a.axis_v), b.axis_u.dot(a.axis_u));
+  LogMetric mean = a.metric;
+  mean += {b.metric.scale, angle == 0 ? b.metric.turn : rotated(b.metric.turn, 2 * angle)};
+  // An edge leaves the tangent plane by its bend, which takes nothing of its length.
+  const Vector3d edge = surface_.point(to) - surface_.point(from);
+  const Vec2 flat(edge.dot(a.axis_u), edge.dot(a.axis_v));
+  const double seen2 = flat.squaredNorm();
+  return seen2 > 0 ? (mean * 0.5).length(flat) * std::sqrt(edge.squaredNorm() / seen2) : 0;
+}
+
+std::vector<double> MetricField::side_lengths() const {
+  std::vector<double> lengths(3 * surface_.triangles(), 0);
+  for (Index side = 0; side < lengths.size(); ++side) {
+    const auto& corners = surface_.corners(side / 3);
+    lengths[side] = length(corners[side % 3], corners[(side + 1) % 3]);
+  }
+  return lengths;
+}
+
+double MetricField::share_above(double ratio) const {
+  const double least = std::log(ratio);
+  std::size_t all = 0, above = 0;
+  for (const Node& node : nodes_) {
+    if (node.triangles == 0) continue;
+    ++all;
+    above += node.metric.turn.norm() > least;
+  }
+  return all > 0 ? double(above) / double(all) : 0;
+}
+
+double MetricField::largest_ratio() const {
+  double largest = 1;
+  for (const Node& node : nodes_) largest = std::max(largest, node.metric.ratio());
+  return largest;
+}
+
+std::optional<LogMetric> MetricField::uniform() const {
+  constexpr double kMostSpread = 1.3;  // a factor, in the mean
+  LogMetric mean;
+  double count = 0;
+  const Node* first = nullptr;
+  for (const Node& node : nodes_) {
+    if (node.triangles == 0) continue;
+    if (!first) first = &node;
+    if (node.axis_u != first->axis_u || node.axis_v != first->axis_v) return {};
+    mean += node.metric;
+    ++count;
+  }
+  mean = mean * (1 / count);
+  double spread = 0;
+  for (const Node& node : nodes_)
+    if (node.triangles > 0) spread += (node.metric.turn - mean.turn).norm();
+  if (!(spread <= std::log(kMostSpread) * count)) return {};
+  mean.scale = 0;
+  return mean;
+}
+
+}  // namespace qmorph::stretch
