@@ -262,7 +262,7 @@ class RegionConverter {
   /// Where the triangles are a grid's, their cells; moved only if that makes them better. Nothing if a cell is poor,
   /// or there is no grid.
   std::optional<Attempt> attempt_as_grid() {
-    constexpr double kLeast = 0.64, kSame = 1e-6;  // leaning by 50 degrees; rounding
+    constexpr double kSame = 1e-6;  // rounding
     auto cells = options_.layers ? pair_as_grid(start_) : std::nullopt;
     if (!cells) return {};
     const Worth before = judge(*cells);
@@ -274,7 +274,7 @@ class RegionConverter {
     cost_ += moved.mesh.work();
     if (after.least >= before.least - kSame && after.sum() > before.sum() + kSame) result = std::move(moved);
     result.fault = find_fault(result.mesh, region_, plane_);
-    if (result.fault || std::max(before.least, after.least) < kLeast) return {};
+    if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
     return result;
   }
 
