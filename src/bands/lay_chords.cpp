@@ -13,7 +13,7 @@
 namespace qmorph::bands {
 namespace {
 
-constexpr std::size_t kMostNodes = 48, kFewestNodes = 5;
+constexpr std::size_t kMostNodes = 48, kFewestNodes = 4;
 /// Nodes inside, for each of the boundary, that a region may have had.
 constexpr double kMostInside = 0.25;
 

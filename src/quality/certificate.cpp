@@ -86,11 +86,15 @@ class Explanation {
 
   bool is_open(Index side) const { return sides_.opposite(side) == kNone; }
 
-  /// One of its corners lies between two kept edges with so small an angle that no element there can be good.
+  /// One of its corners lies between two kept edges with so small an angle that no element there can be good, be it
+  /// alone between them or not.
   bool fills_sharp_corner(Index element) const {
     const double sharp = std::asin(kPoorQuad);
-    for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side)
-      if (is_open(side) && is_open(sides_.previous(side)) && angle(side) < sharp) return true;
+    for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side) {
+      double sum = 0;
+      sides_.for_fan(side, [&](Index other) { sum += angle(other); });
+      if (sum < sharp) return true;
+    }
     return false;
   }
 

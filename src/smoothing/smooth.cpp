@@ -160,6 +160,7 @@ class Passes {
     block_.assign(mesh_.vertex_slots(), kNone);
     for (std::size_t i = 0; i < order.size(); ++i) block_[nodes[order[i]]] = Index(i / kBlock);
     blocks_.resize(order.size() / kBlock + 1);
+    for (auto& block : blocks_) block.reserve(std::min(order.size(), kBlock));
     const std::vector<char> is_between = find_between();
     for (Index i : order) (is_between[nodes[i]] ? between_ : blocks_[block_[nodes[i]]]).push_back(nodes[i]);
   }
@@ -280,6 +281,7 @@ double relax_node(kernel::Mesh& mesh, Index v) {
 
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget) {
   std::vector<Index> nodes;
+  nodes.reserve(mesh.vertex_slots());
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v) && mesh.is_free(v)) nodes.push_back(v);
   if (options.method == SmoothingMethod::thesis)

@@ -71,6 +71,20 @@ TEST_CASE("certificate: a corner of the boundary that is too sharp, and only one
   }
 }
 
+TEST_CASE("certificate: a sharp corner is one though it is parted between two quads") {
+  const double degrees = 10, half = degrees * std::numbers::pi / 360, x = std::cos(half), y = std::sin(half);
+  QuadMesh mesh;
+  mesh.points = {{0, 0, 0}, {x, -y, 0}, {1.5, -0.1, 0}, {1, 0, 0}, {1.5, 0.1, 0}, {x, y, 0}};
+  mesh.quads = {{0, 1, 2, 3}, {0, 3, 4, 5}};
+  mesh.source = {0, 1, 2, 3, 4, 5};
+  Patch patch;
+  patch.points = mesh.points;
+  patch.triangles = {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}};
+  const auto poor = explain(patch, mesh);
+  CHECK(poor.size() == 2);
+  for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::boundary_angle);
+}
+
 TEST_CASE("certificate: a crease is an edge that is kept") {
   // Two flat kites of 10 degrees, folded by a right angle along an edge that ends in both their tips.
   const double half = 5 * std::numbers::pi / 180, x = std::cos(half), y = std::sin(half);
