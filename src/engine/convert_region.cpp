@@ -127,28 +127,18 @@ class RegionConverter {
     }
   }
 
-  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth
-  /// more; and one that would have far more quads than asked for.
+  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth more
+  /// and the worst is no worse.
   void take_chords(Attempt& best) {
-    constexpr double kPoor = 0.3, kFarTooMany = 2 * kFairGrowth;
+    constexpr double kPoor = 0.3;
     const Worth worth = judge(best.mesh);
-    if (best.fault || (worth.least >= kPoor && worth.growth <= kFarTooMany)) return;
+    if (best.fault || worth.least >= kPoor) return;
     auto chords = bands::lay_chords(region_);
     if (!chords) return;
-    const bool has_too_many = worth.growth > kFarTooMany;
-    Attempt laid;
-    if (has_too_many) {  // repair would part a poor quad into five that are no better
-      laid = {std::move(*chords), options_, allowed_ - double(cost_)};
-      const Pipeline starts_record(laid.options, laid.report, laid.record, input_, laid.allowed);
-      if (wants_stages(laid.options)) laid.record.stages[std::size_t(Stage::repair)] = laid.mesh;
-      laid.fault = find_fault(laid.mesh, region_, plane_);
-    } else {
-      laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
-      finish(laid);
-    }
+    Attempt laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
+    finish(laid);
     const Worth one = judge(laid.mesh);
-    const bool is_fair = worth.least >= kPoor || one.least >= worth.least;
-    if (!laid.fault && is_fair && one.sum() > worth.sum()) best = std::move(laid);
+    if (!laid.fault && one.least >= worth.least && one.sum() > worth.sum()) best = std::move(laid);
   }
 
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
@@ -262,7 +252,7 @@ class RegionConverter {
   /// Where the triangles are a grid's, their cells; moved only if that makes them better. Nothing if a cell is poor,
   /// or there is no grid.
   std::optional<Attempt> attempt_as_grid() {
-    constexpr double kLeast = 0.64, kSame = 1e-6;  // leaning by 50 degrees; rounding
+    constexpr double kSame = 1e-6;  // rounding
     auto cells = options_.layers ? pair_as_grid(start_) : std::nullopt;
     if (!cells) return {};
     const Worth before = judge(*cells);
@@ -274,7 +264,7 @@ class RegionConverter {
     cost_ += moved.mesh.work();
     if (after.least >= before.least - kSame && after.sum() > before.sum() + kSame) result = std::move(moved);
     result.fault = find_fault(result.mesh, region_, plane_);
-    if (result.fault || std::max(before.least, after.least) < kLeast) return {};
+    if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
     return result;
   }
 

@@ -121,4 +121,9 @@ std::optional<Mesh> pair_as_grid(const Mesh& triangles) {
   return best;
 }
 
+bool is_good_grid(const Mesh& triangles) {
+  const auto cells = pair_as_grid(triangles);
+  return cells && smallest_sine(*cells) >= kPoorestCell;
+}
+
 }  // namespace qmorph

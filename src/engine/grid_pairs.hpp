@@ -14,4 +14,10 @@ namespace qmorph {
 /// goes on as the other's lattice does. Cost: linear; a mesh that is no grid is left after a few triangles.
 std::optional<kernel::Mesh> pair_as_grid(const kernel::Mesh& triangles);
 
+/// Sine of the sharpest corner of a cell that is worth keeping: of one that leans by 50 degrees.
+constexpr double kPoorestCell = 0.64;
+
+/// Whether the triangles are a grid's, with no cell that leans more.
+bool is_good_grid(const kernel::Mesh& triangles);
+
 }  // namespace qmorph

@@ -11,7 +11,6 @@
 #include "kernel/fixture.hpp"
 #include "qmorph/convert.hpp"
 #include "support/invariants.hpp"
-#include "support/watcher.hpp"
 
 namespace {
 
@@ -145,20 +144,6 @@ TEST_CASE("chords: the triangle of an odd wedge lies in its tip, and all else is
     CHECK(conversion.mesh.triangles.size() == 1);
     CHECK(least_of(conversion.mesh) > 0.98);
   }
-}
-
-TEST_CASE("chords: two triangles in a tip are one quad rather than five") {
-  Patch patch;
-  patch.points = {{0, 0, 0}, {0.219, -0.0165, 0}, {0.235, 0, 0}, {0.241, 0.0155, 0}};
-  patch.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const Conversion conversion = convert(patch);
-  CHECK(conversion.mesh.quads.size() == 1);
-  CHECK(least_of(conversion.mesh) > 0.1);
-  Watcher watcher;
-  Options options;
-  options.observer = &watcher;
-  CHECK(convert(patch, options).mesh.quads == conversion.mesh.quads);
-  CHECK(watcher.stages.size() == kStages);
 }
 
 TEST_CASE("chords: what has room for nodes inside, a hole or a fixed node is left alone") {
