@@ -154,7 +154,7 @@ class Explanation {
   double reach(const Edge& edge) const { return kPoorQuad * (after_.points[edge[1]] - after_.points[edge[0]]).norm(); }
 
   bool is_near_any(const Edge& edge, const std::set<Index>& nodes, const std::vector<Edge>& edges) const {
-    const auto& [a, b] = edge;
+    const Index a = edge[0], b = edge[1];  // no structured binding, which Clang 14 does not capture
     const Vector3d &pa = after_.points[a], &pb = after_.points[b];
     return std::any_of(nodes.begin(), nodes.end(), [&](Index v) {
       if (v == a || v == b) return false;
