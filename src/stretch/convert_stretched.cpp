@@ -11,7 +11,7 @@
 #include "engine/grid_pairs.hpp"
 #include "geometry/predicates.hpp"
 #include "quality/directed_size.hpp"
-#include "stretch/conformal_scale.hpp"
+#include "stretch/flat_lengths.hpp"
 #include "stretch/metric_field.hpp"
 #include "stretch/straighten.hpp"
 
@@ -22,8 +22,9 @@ namespace {
 constexpr double kStretched = 3, kShare = 0.2;
 /// Fewer triangles may be what they are by chance, or because the boundary leaves no room; if they are not even alike.
 constexpr std::size_t kFewest = 100, kFewestAlike = 16;
-/// Of the chart against the lengths that it was made for: 99th percentile.
-constexpr double kMostDistortion = 1.3;
+/// Of the chart against the lengths that it was made for: 99th percentile. Quads are smoothed by the metric in the end,
+/// so that it may be more than on curved surfaces; that around holes there is any is what has no cure but cuts.
+constexpr double kMostDistortion = 2;
 
 /// A region of a plane as a surface in space.
 struct Surface {
@@ -160,6 +161,18 @@ double size_ratio(const Surface& surface, const Region& region, const kernel::Me
   return largest_ratio(median(directed_sizes(before, points, quads)));
 }
 
+/// Share of the inner nodes that have other than four edges.
+double irregular_share(const kernel::Mesh& mesh) {
+  std::size_t inner = 0, irregular = 0;
+  const std::vector<Index> valences = mesh.valences();
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+    if (!mesh.is_live_vertex(v) || mesh.is_boundary(v)) continue;
+    ++inner;
+    irregular += valences[v] != 4;
+  }
+  return inner > 0 ? double(irregular) / double(inner) : 0;
+}
+
 /// What is straight by the metric is straight; what is right by the metric may be as thin in the plane as triangles are.
 bool is_valid(const kernel::Mesh& mesh, const MetricField& field) {
   const double least = std::max(kDegenerateSine, kStraightSine / field.largest_ratio());
@@ -205,7 +218,10 @@ std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane&
   if (const double off = size_ratio(surface, region, best->mesh); off > kLargestSizeRatio) {
     std::optional<Attempt> plain = attempt(
         field, [&](Attempt& own) { return convert_region(region, plane, options, allowed, own.report, own.record); });
-    if (plain && size_ratio(surface, region, plain->mesh) < off) best = std::move(plain);
+    // A front among stretched triangles often keeps sizes by many small quads without any order.
+    if (plain &&
+        size_ratio(surface, region, plain->mesh) + irregular_share(plain->mesh) < off + irregular_share(best->mesh))
+      best = std::move(plain);
   }
   report = best->report;
   record = std::move(best->record);

@@ -11,8 +11,10 @@ namespace qmorph::stretch {
 using Eigen::Vector3d;
 
 MetricField::MetricField(const space::Background& surface) : surface_(surface), nodes_(surface.points().size()) {
+  constexpr int kPasses = 3;  // noise of a mesh that was jittered hides that it is stretched alike everywhere
   add_axes();
   add_metrics();
+  for (int pass = 0; pass < kPasses; ++pass) smooth();
 }
 
 /// In a coordinate plane the axes are those of the coordinates.
@@ -37,8 +39,7 @@ void MetricField::add_metrics() {
       Node& node = nodes_[v];
       const auto in_plane = [&](const Vector3d& side) { return Vec2(side.dot(node.axis_u), side.dot(node.axis_v)); };
       const auto metric = metric_of(in_plane(b - a), in_plane(c - b), in_plane(a - c));
-      if (!metric) continue;
-      node.metric += *metric;
+      if (metric) node.metric += *metric;
       ++node.triangles;
     }
   }
@@ -46,13 +47,27 @@ void MetricField::add_metrics() {
     if (node.triangles > 0) node.metric = node.metric * (1 / node.triangles);
 }
 
-/// By the mean of the two metrics, after that of the second was turned to the axes of the first.
+LogMetric MetricField::seen_from(const Node& a, const Node& b) {
+  const double angle = std::atan2(b.axis_u.dot(a.axis_v), b.axis_u.dot(a.axis_u));
+  return {b.metric.scale, angle == 0 ? b.metric.turn : rotated(b.metric.turn, 2 * angle)};
+}
+
+/// To the mean over the triangles around each node.
+void MetricField::smooth() {
+  std::vector<LogMetric> sums(nodes_.size());
+  for (Index t = 0; t < surface_.triangles(); ++t)
+    for (Index v : surface_.corners(t))
+      for (Index u : surface_.corners(t)) sums[v] += seen_from(nodes_[v], nodes_[u]);
+  for (Index v = 0; v < nodes_.size(); ++v)
+    if (nodes_[v].triangles > 0) nodes_[v].metric = sums[v] * (1 / (3 * nodes_[v].triangles));
+}
+
+/// By the mean of the two metrics.
 double MetricField::length(Index from, Index to) const {
   if (from > to) std::swap(from, to);
   const Node &a = nodes_[from], &b = nodes_[to];
-  const double angle = std::atan2(b.axis_u.dot(a.axis_v), b.axis_u.dot(a.axis_u));
   LogMetric mean = a.metric;
-  mean += {b.metric.scale, angle == 0 ? b.metric.turn : rotated(b.metric.turn, 2 * angle)};
+  mean += seen_from(a, b);
   // An edge leaves the tangent plane by its bend, which takes nothing of its length.
   const Vector3d edge = surface_.point(to) - surface_.point(from);
   const Vec2 flat(edge.dot(a.axis_u), edge.dot(a.axis_v));

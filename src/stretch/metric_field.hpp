@@ -36,6 +36,9 @@ class MetricField {
   };
   void add_axes();
   void add_metrics();
+  void smooth();
+  /// The metric of b with the axes of a.
+  static LogMetric seen_from(const Node& a, const Node& b);
 
   const space::Background& surface_;
   std::vector<Node> nodes_;

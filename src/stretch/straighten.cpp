@@ -229,7 +229,7 @@ class Straightening {
   }
 
   void raise_poor() {
-    constexpr int kRounds = 4;
+    constexpr int kRounds = 10;
     for (int round = 0; round < kRounds; ++round) {
       bool any = false;
       for (Index f = 0; f < mesh_.face_slots(); ++f) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "stretch/conformal_scale.hpp"
+#include "stretch/flat_lengths.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
