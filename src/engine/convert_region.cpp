@@ -249,10 +249,10 @@ class RegionConverter {
                        [&](const Front& front) { return front.decisions.would_be_same(options); });
   }
 
-  /// Where the triangles are a grid's, their cells; moved only if that makes them better. Nothing if a cell is poor,
-  /// or there is no grid.
+  /// Where the triangles are a grid's, their cells; moved only if that makes the worst much better. Nothing if a cell is
+  /// poor, or there is no grid.
   std::optional<Attempt> attempt_as_grid() {
-    constexpr double kSame = 1e-6;  // rounding
+    constexpr double kMuch = 0.01;  // worth moving for
     auto cells = options_.layers ? pair_as_grid(start_) : std::nullopt;
     if (!cells) return {};
     const Worth before = judge(*cells);
@@ -262,7 +262,7 @@ class RegionConverter {
     pipeline.polish(moved.mesh);
     const Worth after = judge(moved.mesh);
     cost_ += moved.mesh.work();
-    if (after.least >= before.least - kSame && after.sum() > before.sum() + kSame) result = std::move(moved);
+    if (after.least > before.least + kMuch) result = std::move(moved);
     result.fault = find_fault(result.mesh, region_, plane_);
     if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
     return result;
