@@ -60,7 +60,8 @@ Patch grid(const Record& r) {
 
 double odd_number(std::uint8_t byte) {
   using Limits = std::numeric_limits<double>;
-  constexpr std::array kNumbers{Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 1e300, 1e-300, -0.0, 1e8};
+  constexpr std::array kNumbers{
+      Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 1e300, 1e-300, -0.0, 100.0};
   return kNumbers[byte % kNumbers.size()];
 }
 
@@ -137,6 +138,16 @@ void damage(Patch& patch, const Record& r) {
   }
 }
 
+/// What is nearly flat is neither promised to stay in its plane to the last bit, nor measured on a surface.
+bool is_nearly_flat(const Patch& patch) {
+  double height = 0, width = 0;
+  for (const Vector3d& p : patch.points) {
+    height = std::max(height, std::abs(p.z()));
+    width = std::max(width, p.head<2>().cwiseAbs().maxCoeff());
+  }
+  return height < 1e-3 * width;
+}
+
 /// Whether triangles face away from most others.
 bool is_crumpled(const Patch& patch) {
   const Vector3d normal = area_vector(patch.points, patch.triangles, {});
@@ -171,7 +182,7 @@ Patch damaged_patch(std::span<const std::uint8_t> bytes) {
   for (std::size_t at = kRecord; at + kRecord <= bytes.size() && !patch.triangles.empty(); at += kRecord)
     damage(patch, record(at));
   // In space overlaps are allowed, and may take seconds; in a plane they are refused.
-  if (!why_unsound(patch) && (shape_of(record(0)) != Shape::square || is_crumpled(patch)))
+  if (!why_unsound(patch) && (shape_of(record(0)) != Shape::square || is_crumpled(patch) || is_nearly_flat(patch)))
     for (Vector3d& p : patch.points) p.z() = 0;
   return patch;
 }
@@ -201,6 +212,9 @@ bool is_promised_nothing(const Patch& patch) {
     is_bad = is_bad || last - first > 2 || (last - first == 2 && first[0].forward == first[1].forward);
   });
   const Vector3d normal = area_vector(patch.points, patch.triangles, {});
+  double area = 0;
+  for (const auto& t : patch.triangles) area += area_vector(patch.points, {t}, {}).norm();
+  is_bad = is_bad || !(normal.norm() > 1e-9 * area);
   for (const auto& quad : patch.quads)
     for (std::size_t i = 0; i < 4; ++i) {
       const Vector3d& p = patch.points[quad[i]];

@@ -20,8 +20,8 @@ Patch damaged_patch(std::span<const std::uint8_t> bytes);
 /// coordinate that is not finite.
 std::optional<std::string> why_unsound(const Patch& patch);
 
-/// Whether nothing is promised but an orderly end: for kept quads that are no good themselves, and for edges of more
-/// than two elements.
+/// Whether nothing is promised but an orderly end: for kept quads that are no good themselves, edges of more than two
+/// elements, and triangles that lie on each other's backs.
 /// \pre it is sound
 bool is_promised_nothing(const Patch& patch);
 
