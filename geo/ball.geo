@@ -1,4 +1,4 @@
-// A ball as an old football is sewn, seen from the front: a disc whose seams are shared curves, five-sided in the middle.
+// A ball sewn like an old football, seen from the front: a disc whose seams are shared curves, five-sided in the middle.
 DefineConstant[ radius = 1, patch = 0.42, size = 0.06 ];
 
 Point(1) = {0, 0, 0};

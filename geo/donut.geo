@@ -1,4 +1,4 @@
-// A ring whose hole is off its centre: fronts from outside and inside meet where the ring is thin first.
+// A ring whose hole is off its centre: the fronts from outside and inside meet first where the ring is thin.
 DefineConstant[ outer = 1, inner = 0.45, shift = 0.4, size = 0.07 ];
 
 Point(1) = {0, 0, 0};

@@ -1,5 +1,5 @@
-// A foil with a boundary layer of triangles, as viscous flow is computed on: rows along the wall whose heights grow by a
-// fifth from one to the next, and a fan at the sharp trailing edge. The rows become rows of quads, with these heights.
+// A foil with a boundary layer of triangles, as used for viscous flow: rows along the wall, each a fifth higher than the
+// one before, and a fan at the sharp trailing edge. The rows become rows of quads of the same heights.
 DefineConstant[ thickness = 15, attack = 4, first = 0.0008, growth = 1.2, total = 0.03, size = 0.3, half = 24 ];
 
 t = thickness / 100;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""plate.py [FILE.inp]: a plate with a hole, drawn, meshed and turned into quads in one session of Gmsh; a deck for CalculiX.
+"""plate.py [FILE.inp]: a plate with a hole, drawn, meshed, turned into quads and written as a deck in one session of Gmsh.
 
 Needs Debian's python3-gmsh, and the module qmorph (README: "In Python").
 """
@@ -28,7 +28,7 @@ gmsh.option.setNumber("Mesh.MeshSizeMax", 0.05)
 gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 40)
 gmsh.model.mesh.generate(2)
 
-qmorph.gmsh.make_even()  # no triangle at all
+qmorph.gmsh.make_even()  # so that no triangle is left
 report = qmorph.gmsh.recombine()
 for surface in report.left:
     sys.exit(f"surface {surface.tag}: {surface.reason}")

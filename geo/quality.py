@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""quality.py [PICTURE]: how good the quads of some points are, as a picture; the cells of a notebook, one after another.
+"""quality.py [PICTURE]: quads from a cloud of points, and a picture of how good they are; a notebook's cells in a row.
 
 Needs Debian's python3-matplotlib, and the module qmorph (README: "In Python").
 """

@@ -1,5 +1,5 @@
 // A folded sheet in space: two panels, each with an opening, in two tilted planes that share the crease.
-// Nothing lies in z = 0, so whoever thinks in x and y alone gets it wrong.
+// Nothing lies in z = 0, so code that looks at x and y alone gets it wrong.
 DefineConstant[ fold = 70, tilt = 35, size = 0.06 ];
 
 // The first panel lies in a plane that is tilted about x; the second is turned by `fold` about the crease.
@@ -8,7 +8,7 @@ st = Sin(tilt * Pi / 180);
 cf = Cos((tilt + fold) * Pi / 180);
 sf = Sin((tilt + fold) * Pi / 180);
 
-Macro Corner // point `p` at (u, v) of the panel whose direction up is (0, c, s), moved away from the origin
+Macro Corner // point `p` at (u, v) of the panel whose upward direction is (0, c, s), moved away from the origin
   Point(p) = {3 + u, -1 + v * c, 2 + v * s, h};
 Return
 

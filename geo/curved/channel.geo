@@ -1,5 +1,5 @@
 // Flow past a cylinder, one layer of cells thick, for OpenFOAM: `qmorph -3 channel.geo --for openfoam` makes hexahedra of
-// the quads. See channel/Allrun.
+// the quads; foam_case makes a case of them.
 DefineConstant[ length = 2.2, height = 0.41, diameter = 0.1, thickness = 0.05, size = 0.025 ];
 
 SetFactory("OpenCASCADE");

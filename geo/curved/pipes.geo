@@ -1,4 +1,4 @@
-// A pipe with two branches, one of them slanted: the quads of its walls meet along the curves where the pipes do.
+// A pipe with two branches, one of them slanted: the quads of the walls meet along the curves where the pipes meet.
 DefineConstant[ radius = 1, branch = 0.6, size = 0.18 ];
 
 SetFactory("OpenCASCADE");
@@ -9,7 +9,7 @@ BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
 Mesh.MeshSizeMin = size;
 Mesh.MeshSizeMax = size;
 
-// What is flat is an end, where the pipe is open.
+// The flat surfaces are the ends, where the pipes are open.
 e = 0.01;
 ends() = Surface In BoundingBox {-4 - e, -radius - e, -radius - e, -4 + e, radius + e, radius + e};
 ends() += Surface In BoundingBox {4 - e, -radius - e, -radius - e, 4 + e, radius + e, radius + e};

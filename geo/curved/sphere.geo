@@ -1,4 +1,4 @@
-// A sphere of the OpenCASCADE kernel: one surface, with a seam and two poles that must not show in the mesh.
+// A sphere made by OpenCASCADE: one surface, with a seam and two poles that must not show in the mesh.
 DefineConstant[ radius = 1, size = 0.1 ];
 
 SetFactory("OpenCASCADE");

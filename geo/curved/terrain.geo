@@ -1,4 +1,4 @@
-// Remeshing a survey: the facets of terrain.stl (see terrain.py) become a surface with parameters, which is meshed anew.
+// Remeshing a survey: the facets of terrain.stl (see terrain.py) become a parametrised surface, which is meshed anew.
 DefineConstant[ size = 40 ];
 
 Merge "terrain.stl";

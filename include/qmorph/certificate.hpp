@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "qmorph/export.hpp"
+#include "qmorph/options.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph {
@@ -37,8 +38,10 @@ struct PoorQuad {
 inline constexpr double kPoorQuad = 0.3;
 
 /// Looks at each quad of a result whose scaled Jacobian (`scaled_jacobians`, one for each quad) is below kPoorQuad.
-/// Cost: linear, and next to nothing where no quad is poor.
+/// Edges that are kept are constraints, the boundary, and creases (`Options::crease_angle`). Cost: linear, and next to
+/// nothing where no quad is poor.
 QMORPH_API std::vector<PoorQuad> explain_poor_quads(const Patch& before, const QuadMesh& after,
-                                                    std::span<const double> scaled_jacobians);
+                                                    std::span<const double> scaled_jacobians,
+                                                    double crease_angle = Options{}.crease_angle);
 
 }  // namespace qmorph

@@ -21,29 +21,6 @@ constexpr double kCornerAngle = 0.75 * std::numbers::pi;
 /// One side may have so many times the edges of the other.
 constexpr std::size_t kLargestRatio = 4;
 
-using Loop = std::vector<Index>;
-
-/// The boundary, the region on the left of each loop.
-std::vector<Loop> boundary_of(const Region& region, std::size_t most) {
-  std::vector<Index> after(region.points.size(), kNone);
-  for (std::size_t side = 0; side < region.open.size(); ++side)
-    if (region.open[side]) {
-      const auto& n = region.triangles[side / 3];
-      after[n[side % 3]] = n[(side + 1) % 3];
-    }
-  std::vector<Loop> loops;
-  for (Index v = 0; v < after.size() && loops.size() <= most; ++v) {
-    if (after[v] == kNone) continue;
-    Loop loop;
-    for (Index at = v; after[at] != kNone;) {
-      loop.push_back(at);
-      at = std::exchange(after[at], kNone);
-    }
-    loops.push_back(std::move(loop));
-  }
-  return loops;
-}
-
 double length(const Loop& nodes, const std::vector<Vec2>& points) {
   double sum = 0;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) sum += (points[nodes[i + 1]] - points[nodes[i]]).norm();
@@ -119,6 +96,26 @@ class Side {
 };
 
 }  // namespace
+
+std::vector<Loop> boundary_of(const Region& region, std::size_t most) {
+  std::vector<Index> after(region.points.size(), kNone);
+  for (std::size_t side = 0; side < region.open.size(); ++side)
+    if (region.open[side]) {
+      const auto& n = region.triangles[side / 3];
+      after[n[side % 3]] = n[(side + 1) % 3];
+    }
+  std::vector<Loop> loops;
+  for (Index v = 0; v < after.size() && loops.size() <= most; ++v) {
+    if (after[v] == kNone) continue;
+    Loop loop;
+    for (Index at = v; after[at] != kNone;) {
+      loop.push_back(at);
+      at = std::exchange(after[at], kNone);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
 
 std::optional<Band> find_band(const Region& region) {
   if (region.boundary_sides % 2 != 0) return {};

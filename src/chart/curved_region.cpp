@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/curved_region.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "chart/creases.hpp"
+#include "space/angle_sum.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -37,16 +37,15 @@ CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) 
 
 /// A cone whose side is inclined by the angle of a crease lacks so many radians around its tip.
 void CurvedRegion::find_tips(double least) {
-  std::vector<double> lacks(points.size(), 2 * std::numbers::pi);
+  std::vector<space::AngleSum> sums(points.size());
   for (const auto& t : region.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d a = points[t[(i + 1) % 3]] - points[t[i]], b = points[t[(i + 2) % 3]] - points[t[i]];
-      lacks[t[i]] -= std::atan2(a.cross(b).norm(), a.dot(b));
-    }
+    for (int i = 0; i < 3; ++i)
+      sums[t[i]].add(points[t[(i + 1) % 3]] - points[t[i]], points[t[(i + 2) % 3]] - points[t[i]]);
+  std::vector<char> is_outer(points.size(), 0);
   for (const auto& edge : barriers)
-    for (Index v : edge) lacks[v] = 0;
+    for (Index v : edge) is_outer[v] = 1;
   for (Index v = 0; v < points.size(); ++v)
-    if (lacks[v] > least) tips.push_back(v);
+    if (!is_outer[v] && 2 * std::numbers::pi - sums[v].radians() > least) tips.push_back(v);
 }
 
 SurfaceMesh CurvedRegion::start() const {

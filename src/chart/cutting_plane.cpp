@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "chart/topology.hpp"
@@ -28,7 +29,8 @@ struct CuttingPlane {
 
 struct Sample {
   std::array<Vector3d, 3> corners;
-  Vector3d middle, normal;
+  Vector3d middle;
+  double radius;  ///< around the middle: no corner is farther away
 };
 
 /// A side of the outline, with the normal of its face.
@@ -52,7 +54,10 @@ class Chooser {
     for (std::size_t h = 0; h < piece.halves.size(); h += step) {
       const auto& [a, b, c] = piece.halves[h];
       const std::array<Vector3d, 3> t{piece.points[a], piece.points[b], piece.points[c]};
-      samples_.push_back({t, (t[0] + t[1] + t[2]) / 3, normal_of(t)});
+      const Vector3d middle = (t[0] + t[1] + t[2]) / 3;
+      double radius2 = 0;
+      for (const Vector3d& corner : t) radius2 = std::max(radius2, (corner - middle).squaredNorm());
+      samples_.push_back({t, middle, 1.01 * std::sqrt(radius2)});
     }
     for (Index side = 0; side < piece.open.size(); ++side) {
       if (!piece.open[side]) continue;
@@ -102,6 +107,7 @@ class Chooser {
   double cost_of(const CuttingPlane& plane, double extent) const {
     double cost = 0;
     for (const Sample& s : samples_) {
+      if (std::abs(plane.distance(s.middle)) > s.radius) continue;
       Vector3d ends[2];
       int count = 0;
       for (int i = 0; i < 3 && count < 2; ++i) {

@@ -79,10 +79,9 @@ class Dividing {
 
   /// A disc whose total curvature is so large that there is no point in trying: half a sphere has 2 pi. Tips may be cut
   /// open.
-  static bool is_round(const Piece& piece) {
+  static bool is_round(const Piece& piece, const std::vector<double>& defects) {
     constexpr double kMostInSum = 5, kTip = 0.5;
     if (piece.faces.size() < kLarge) return false;
-    const std::vector<double> defects = angle_defects(piece);
     std::vector<char> is_outer(piece.points.size(), 0);
     for (Index side = 0; side < piece.open.size(); ++side)
       if (piece.open[side]) is_outer[piece.faces[side / 4][side % 4]] = 1;
@@ -94,12 +93,11 @@ class Dividing {
 
   /// A surface with several rims that cannot lie flat before it is opened: rims of a flat one turn by 2 pi, the outer
   /// one to the left, the others to the right; those of a tube do not turn.
-  static bool has_to_be_opened(const Piece& piece) {
+  static bool has_to_be_opened(const Piece& piece, const std::vector<double>& turns) {
     constexpr double kMostAmiss = 4;
     if (piece.faces.size() < kLarge) return false;
     const std::vector<std::vector<Index>> loops = loops_of(piece);
     if (loops.size() < 2) return false;
-    const std::vector<double> turns = angle_defects(piece);
     std::vector<double> sums;
     for (const std::vector<Index>& loop : loops) {
       double sum = 0;
@@ -119,9 +117,12 @@ class Dividing {
   /// Accepts a part, or cuts it and returns what it falls into.
   std::vector<std::vector<Index>> settle(const std::vector<Index>& faces) {
     Piece piece(mesh_, opposite_, division_.is_cut, faces);
-    const bool is_to_be_cut = double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece) || is_round(piece);
-    if (is_to_be_cut || has_to_be_opened(piece)) {
-      if (auto opened = is_to_be_cut ? std::nullopt : open(faces, piece)) return finish(faces, std::move(*opened));
+    bool is_to_be_cut = double(faces.size()) > kTooLarge * most_ || !is_planar_topology(piece);
+    const std::vector<double> defects = is_to_be_cut ? std::vector<double>() : angle_defects(piece);
+    is_to_be_cut = is_to_be_cut || is_round(piece, defects);
+    if (is_to_be_cut || has_to_be_opened(piece, defects)) {
+      if (auto opened = is_to_be_cut ? std::nullopt : open(faces, piece, defects))
+        return finish(faces, std::move(*opened));
       auto smaller = cut(faces, piece);
       if (smaller.empty()) accept(faces, std::make_unique<LaidOut>(std::move(piece)));
       return smaller;
@@ -129,7 +130,7 @@ class Dividing {
     auto [is_good, part] = judge(piece);
     if (is_good) return finish(faces, std::move(part));
     const Piece& same = part ? part->piece : piece;
-    if (auto opened = open(faces, same)) return finish(faces, std::move(*opened));
+    if (auto opened = open(faces, same, defects)) return finish(faces, std::move(*opened));
     auto smaller = cut(faces, same);
     if (smaller.empty()) accept(faces, part ? std::move(part) : std::make_unique<LaidOut>(std::move(piece)));
     return smaller;
@@ -151,9 +152,10 @@ class Dividing {
 
   /// Cuts along the paths that open the part, until it has a good chart; null in its place if a glance was enough.
   /// Nothing, and nothing is cut, if it never has.
-  std::optional<std::unique_ptr<LaidOut>> open(const std::vector<Index>& faces, const Piece& piece) {
+  std::optional<std::unique_ptr<LaidOut>> open(const std::vector<Index>& faces, const Piece& piece,
+                                               const std::vector<double>& defects) {
     std::vector<Index> sides;
-    const std::vector<std::vector<Index>> paths = opening_paths(piece);
+    const std::vector<std::vector<Index>> paths = opening_paths(piece, defects);
     for (std::size_t k = 0; k < paths.size(); ++k) {
       for (Index side : sides_along(piece, paths[k])) {
         set_cut(side, true);

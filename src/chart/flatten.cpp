@@ -83,7 +83,7 @@ std::vector<Shape> shapes_of(const space::Background& surface, std::span<const d
 
 Map map_of(const Shape& shape, const Complex& p, const Complex& q, const Complex& r) {
   const Complex along = (q - p) / shape.base;
-  const Complex across = ((r - p) - along * shape.tip.real()) / (Complex(0, 1) * shape.tip.imag());
+  const Complex up = ((r - p) - along * shape.tip.real()) / shape.tip.imag(), across(up.imag(), -up.real());
   return {0.5 * (along + across), 0.5 * (along - across)};
 }
 
@@ -94,10 +94,17 @@ Map map_of(const space::Background& surface, const Shape& shape, Index t, const 
   return map_of(shape, complex_of(points[a]), complex_of(points[b]), complex_of(points[c]));
 }
 
-double sine_of(const space::Background& surface, Index t, const std::vector<Vec2>& points) {
-  const auto& [a, b, c] = surface.corners(t);
-  return std::min({corner_sine(points[a], points[b], points[c]), corner_sine(points[b], points[c], points[a]),
-                   corner_sine(points[c], points[a], points[b])});
+/// Whether all sines are larger than kLeastSine.
+bool is_upright(const space::Background& surface, Index t, const std::vector<Vec2>& points) {
+  const Vec2 &a = points[surface.corners(t)[0]], &b = points[surface.corners(t)[1]], &c = points[surface.corners(t)[2]];
+  const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  if (cross(b - a, c - a) > 2 * kLeastSine * longest2) return true;  // no need to look closer
+  return std::min({corner_sine(a, b, c), corner_sine(b, c, a), corner_sine(c, a, b)}) >= kLeastSine;
+}
+
+/// The usual product: std::complex takes care of numbers that are not finite, too.
+Complex product(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
 class Flattening2D {
@@ -139,7 +146,7 @@ class Flattening2D {
   /// Cotangent of the corner across side i.
   static double cotangent(const Shape& shape, int i) {
     const Complex at = shape.corner((i + 2) % 3), to = shape.corner(i) - at, other = shape.corner((i + 1) % 3) - at;
-    return (std::conj(to) * other).real() / (2 * shape.area());
+    return product(std::conj(to), other).real() / (2 * shape.area());
   }
 
   void factorise() {
@@ -196,8 +203,9 @@ class Flattening2D {
       for (Index side = 3 * t; side < 3 * t + 3; ++side) {
         const Index other = surface_.opposite(side);
         if (other == kNone || rotations_[other / 3] != Complex(0)) continue;
-        const Complex turned = rotations_[t] * shapes_[t].side(side % 3) / -shapes_[other / 3].side(other % 3);
-        rotations_[other / 3] = turned / std::abs(turned);
+        const Complex turned =
+            product(product(rotations_[t], shapes_[t].side(side % 3)), -std::conj(shapes_[other / 3].side(other % 3)));
+        rotations_[other / 3] = turned / Map::size(turned);
         order.push_back(other / 3);
       }
     }
@@ -263,12 +271,13 @@ class Flattening2D {
 
 void measure_distortion(const space::Background& surface, const std::vector<Shape>& shapes, Flattening& flattening) {
   std::vector<double> ratios{1}, factors{1};
+  ratios.reserve(surface.triangles() + 1), factors.reserve(surface.triangles() + 1);
   flattening.flipped = 0;
   for (Index t = 0; t < surface.triangles(); ++t) {
     const Shape& shape = shapes[t];
     const Map map = map_of(surface, shape, t, flattening.points);
     const double larger = map.larger(), smaller = std::max(map.smaller(), kFlat * larger);
-    flattening.flipped += sine_of(surface, t, flattening.points) < kLeastSine;
+    flattening.flipped += !is_upright(surface, t, flattening.points);
     if (shape.tip.imag() <= 1.5 * kLeastHeight * std::abs(shape.tip)) continue;  // has no shape to compare with
     ratios.push_back(larger / smaller);
     factors.push_back(std::max(larger, 1 / smaller));

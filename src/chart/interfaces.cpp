@@ -48,7 +48,7 @@ void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, cons
   const std::vector<bool> is_crease = sides_on(mesh, creases);
   std::vector<bool> is_cut = sides_on(mesh, interface);
   for (std::size_t side = 0; side < is_cut.size(); ++side) is_cut[side] = is_cut[side] || is_crease[side];
-  while (true) {
+  while (is_any(waiting)) {
     const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting);
     if (windows.empty()) return;
     for (const Window& window : windows) straighten_window(mesh, opposite, is_cut, interface, window, background);

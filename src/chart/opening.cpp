@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <queue>
+#include <span>
 
 #include "chart/topology.hpp"
 
@@ -23,7 +25,7 @@ struct Terminal {
   double size = 0;
 };
 
-std::vector<Terminal> terminals_of(const Piece& piece) {
+std::vector<Terminal> terminals_of(const Piece& piece, const std::vector<double>& defects) {
   std::vector<Terminal> terminals;
   std::vector<char> is_outer(piece.points.size(), 0);
   for (std::vector<Index>& loop : loops_of(piece)) {
@@ -35,7 +37,6 @@ std::vector<Terminal> terminals_of(const Piece& piece) {
     terminal.points = std::move(loop);
     terminals.push_back(std::move(terminal));
   }
-  const std::vector<double> defects = angle_defects(piece);
   for (Index v = 0; v < piece.points.size(); ++v)
     if (!is_outer[v] && defects[v] > kTip) terminals.push_back({{v}, -1 / defects[v]});
   std::stable_sort(terminals.begin(), terminals.end(),
@@ -43,21 +44,29 @@ std::vector<Terminal> terminals_of(const Piece& piece) {
   return terminals;
 }
 
-/// Edges of the piece by point.
-std::vector<std::vector<Index>> neighbours_of(const Piece& piece) {
-  std::vector<std::vector<Index>> neighbours(piece.points.size());
-  for (const Face& face : piece.faces)
-    for (Index i = 0; i < degree(face); ++i) {
-      const Index a = face[i], b = face[next_corner(face, i)];
-      neighbours[a].push_back(b);
-      neighbours[b].push_back(a);
-    }
-  return neighbours;
-}
+/// The points at the other ends of edges, by point.
+class Neighbours {
+ public:
+  explicit Neighbours(const Piece& piece) : first_(piece.points.size() + 1, 0) {
+    const auto for_sides = [&](const auto& visit) {
+      for (const Face& face : piece.faces)
+        for (Index i = 0; i < degree(face); ++i) visit(face[i], face[next_corner(face, i)]);
+    };
+    for_sides([&](Index a, Index b) { ++first_[a], ++first_[b]; });
+    std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), Index(0));
+    list_.resize(first_.back());
+    std::vector<Index> next(first_.begin(), first_.end() - 1);
+    for_sides([&](Index a, Index b) { list_[next[a]++] = b, list_[next[b]++] = a; });
+  }
+  std::span<const Index> of(Index v) const { return {list_.data() + first_[v], list_.data() + first_[v + 1]}; }
+
+ private:
+  std::vector<Index> first_, list_;
+};
 
 class Joining {
  public:
-  explicit Joining(const Piece& piece) : piece_(piece), neighbours_(neighbours_of(piece)) {}
+  explicit Joining(const Piece& piece) : piece_(piece), neighbours_(piece) {}
 
   /// The shortest path from a set of points to another, touching neither in between.
   std::vector<Index> shortest(const std::vector<Index>& from, const std::vector<char>& is_goal) const {
@@ -74,7 +83,7 @@ class Joining {
         while (before[path.back()] != kNone) path.push_back(before[path.back()]);
         return path;
       }
-      for (Index w : neighbours_[v]) {
+      for (Index w : neighbours_.of(v)) {
         const double length = distance[v] + (piece_.points[w] - piece_.points[v]).norm();
         if (length < distance[w]) distance[w] = length, before[w] = v, waiting.emplace(-length, w);
       }
@@ -84,13 +93,13 @@ class Joining {
 
  private:
   const Piece& piece_;
-  const std::vector<std::vector<Index>> neighbours_;
+  const Neighbours neighbours_;
 };
 
 }  // namespace
 
-std::vector<std::vector<Index>> opening_paths(const Piece& piece) {
-  const std::vector<Terminal> terminals = terminals_of(piece);
+std::vector<std::vector<Index>> opening_paths(const Piece& piece, const std::vector<double>& defects) {
+  const std::vector<Terminal> terminals = terminals_of(piece, defects);
   if (terminals.size() < 2) return {};
   const Joining joining(piece);
   std::vector<std::vector<Index>> paths;

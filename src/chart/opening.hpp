@@ -5,8 +5,8 @@
 namespace qmorph::chart {
 
 /// Paths along edges of a piece that join its loops, and the tips of its cones, to one another: cut along all of them,
-/// it is a disc. The longest loops come first. Each path is a list of points.
-std::vector<std::vector<Index>> opening_paths(const Piece& piece);
+/// it is a disc. The longest loops come first. Each path is a list of points. `defects` as angle_defects(piece).
+std::vector<std::vector<Index>> opening_paths(const Piece& piece, const std::vector<double>& defects);
 
 /// Whether a boundary point has one node before and after it: the end of a cut, or of a line inside.
 bool has_tip(const Piece& piece);

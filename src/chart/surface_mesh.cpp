@@ -26,26 +26,28 @@ std::vector<Index> opposite_sides(const SurfaceMesh& mesh) {
     Index upper, side, following;
   };
   std::vector<Index> opposite(4 * mesh.faces.size(), kNone), first(mesh.points.size(), kNone);
-  std::vector<Entry> waiting;
-  for (Index f = 0; f < mesh.faces.size(); ++f)
-    for (Index i = 0; i < degree(mesh.faces[f]); ++i) {
-      const Index side = 4 * f + i;
+  std::vector<Entry> waiting;  // sides whose edge has no other yet, in chains by the lower node; others are taken out
+  waiting.reserve(2 * mesh.faces.size());
+  for (Index f = 0; f < mesh.faces.size(); ++f) {
+    const Face& face = mesh.faces[f];
+    const Index corners = degree(face);
+    for (Index i = 0; i < corners; ++i) {
+      const Index side = 4 * f + i, from = face[i], to = face[i + 1 == corners ? 0 : i + 1];
       if (mesh.open[side]) continue;
-      const auto [low, high] = std::minmax(mesh.faces[f][i], mesh.faces[f][next_corner(mesh.faces[f], i)]);
-      bool found = false;
-      for (Index e = first[low]; e != kNone && !found; e = waiting[e].following) {
-        Entry& entry = waiting[e];
-        if (entry.upper != high || entry.side == kNone) continue;
-        const Index other = entry.side;
-        if (mesh.faces[other / 4][other % 4] == mesh.faces[f][i]) continue;  // runs the same way
-        opposite[side] = other, opposite[other] = side;
-        entry.side = kNone;
-        found = true;
+      const auto [low, high] = std::minmax(from, to);
+      Index* link = &first[low];
+      for (; *link != kNone; link = &waiting[*link].following) {
+        const Entry& entry = waiting[*link];
+        if (entry.upper != high || mesh.faces[entry.side / 4][entry.side % 4] == from) continue;  // runs the same way
+        opposite[side] = entry.side, opposite[entry.side] = side;
+        *link = entry.following;
+        break;
       }
-      if (found) continue;
+      if (opposite[side] != kNone) continue;
       waiting.push_back({high, side, first[low]});
       first[low] = Index(waiting.size() - 1);
     }
+  }
   return opposite;
 }
 
@@ -53,6 +55,9 @@ Piece::Piece(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const 
              const std::vector<Index>& rows)
     : row(rows), open(4 * rows.size(), false) {
   const LocalNumbers local(rows, mesh.faces.size());
+  for (std::vector<Index>* by_point : {&vertex, &on, &node}) by_point->reserve(rows.size());
+  points.reserve(rows.size()), fixed.reserve(rows.size());
+  near.reserve(rows.size()), first_half.reserve(rows.size()), halves.reserve(2 * rows.size());
   const auto across = [&](Index side) {  // a side of the mesh inside of the piece, or kNone
     const Index other = opposite[side];
     return other == kNone || local[other / 4] == kNone || (!is_cut.empty() && is_cut[side]) ? kNone : other;

@@ -8,6 +8,7 @@
 #include "chart/rework.hpp"
 #include "chart/windows.hpp"
 #include "kernel/sort_unique.hpp"
+#include "smoothing/node_energy.hpp"
 #include "smoothing/smooth.hpp"
 
 namespace qmorph::chart {
@@ -77,8 +78,9 @@ bool merge_in(kernel::Mesh& mesh, Index from, Index into) {
   std::vector<Index> around;
   for (Index e : mesh.around(into)) around.push_back(mesh.target(e));
   constexpr int kPasses = 3;
+  smoothing::Star star;
   for (int pass = 0; pass < kPasses; ++pass)
-    for (Index v : around) smoothing::relax_node(mesh, v);
+    for (Index v : around) smoothing::relax_node(mesh, v, star);
   const bool good = mesh.is_star_above(into, kLeastSine) &&
                     std::all_of(around.begin(), around.end(), [&](Index v) { return mesh.is_valid_star(v); });
   good ? mesh.commit() : mesh.rollback();
@@ -103,13 +105,14 @@ std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, 
                             std::vector<Edge>& interface, const space::Background& background) {
   if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
   const std::vector<Merge> merges = choose(mesh, size, creases, interface);
+  if (merges.empty()) return {};
   std::vector<Index> goes_into(mesh.points.size(), kNone);
   std::vector<char> waiting(mesh.points.size(), 0);
   for (const Merge& merge : merges) goes_into[merge.from] = merge.into, waiting[merge.from] = 1;
   std::vector<Index> stays(mesh.points.size());  // where interfaces run now
   std::iota(stays.begin(), stays.end(), 0);
   std::vector<Index> changed;
-  while (true) {
+  while (is_any(waiting)) {
     const std::vector<Index> opposite = opposite_sides(mesh);
     const std::vector<Window> windows = take_windows(mesh, opposite, sides_on(mesh, creases), kWindow, waiting);
     if (windows.empty()) break;

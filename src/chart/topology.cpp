@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/topology.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "chart/local_numbers.hpp"
+#include "space/angle_sum.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -50,25 +49,27 @@ bool is_planar_topology(const Piece& piece) {
 std::vector<std::vector<Index>> components(const std::vector<Index>& faces, const std::vector<Index>& opposite,
                                            const std::vector<bool>& is_cut) {
   std::vector<Index> sorted = faces;
-  std::sort(sorted.begin(), sorted.end());
+  if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
   const LocalNumbers local(sorted, opposite.size() / 4);
-  std::vector<char> seen(sorted.size(), 0);
-  std::vector<std::vector<Index>> result;
+  std::vector<Index> of(sorted.size(), kNone), some;
+  std::vector<std::size_t> sizes;
   for (Index first = 0; first < sorted.size(); ++first) {
-    if (seen[first]) continue;
-    seen[first] = 1;
-    std::vector<Index> some{sorted[first]};
+    if (of[first] != kNone) continue;
+    of[first] = Index(sizes.size());
+    some.assign(1, first);
     for (std::size_t k = 0; k < some.size(); ++k)
-      for (Index side = 4 * some[k]; side < 4 * some[k] + 4; ++side) {
+      for (Index side = 4 * sorted[some[k]]; side < 4 * sorted[some[k]] + 4; ++side) {
         if (opposite[side] == kNone || is_cut[side]) continue;
         const Index other = local[opposite[side] / 4];
-        if (other == kNone || seen[other]) continue;
-        seen[other] = 1;
-        some.push_back(sorted[other]);
+        if (other == kNone || of[other] != kNone) continue;
+        of[other] = of[first];
+        some.push_back(other);
       }
-    std::sort(some.begin(), some.end());
-    result.push_back(std::move(some));
+    sizes.push_back(some.size());
   }
+  std::vector<std::vector<Index>> result(sizes.size());
+  for (std::size_t c = 0; c < sizes.size(); ++c) result[c].reserve(sizes[c]);
+  for (std::size_t k = 0; k < sorted.size(); ++k) result[of[k]].push_back(sorted[k]);
   return result;
 }
 
@@ -76,12 +77,12 @@ std::vector<double> angle_defects(const Piece& piece) {
   std::vector<double> defects(piece.points.size(), 2 * std::numbers::pi);
   for (Index side = 0; side < piece.open.size(); ++side)
     if (piece.open[side]) defects[piece.faces[side / 4][side % 4]] = std::numbers::pi;
+  std::vector<space::AngleSum> sums(piece.points.size());
   for (const auto& t : piece.halves)
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d a = piece.points[t[(i + 1) % 3]] - piece.points[t[i]];
-      const Eigen::Vector3d b = piece.points[t[(i + 2) % 3]] - piece.points[t[i]];
-      defects[t[i]] -= std::atan2(a.cross(b).norm(), a.dot(b));
-    }
+    for (int i = 0; i < 3; ++i)
+      sums[t[i]].add(piece.points[t[(i + 1) % 3]] - piece.points[t[i]],
+                     piece.points[t[(i + 2) % 3]] - piece.points[t[i]]);
+  for (std::size_t v = 0; v < defects.size(); ++v) defects[v] -= sums[v].radians();
   return defects;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
+#include <algorithm>
+
 #include "chart/divide.hpp"
 
 namespace qmorph::chart {
@@ -16,6 +18,11 @@ struct WindowSize {
   std::size_t most;    ///< faces of a window
   bool apart = false;  ///< a window waits until no other one is nearer to its middle than the margin
 };
+
+/// Whether a node waits for its window.
+inline bool is_any(const std::vector<char>& waiting) {
+  return std::any_of(waiting.begin(), waiting.end(), [](char waits) { return waits != 0; });
+}
 
 /// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window
 /// has them well inside, or no window can be laid flat around them. Called until it returns nothing, every node has had

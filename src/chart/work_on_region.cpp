@@ -15,6 +15,7 @@
 #include "chart/window_work.hpp"
 #include "chart/windows.hpp"
 #include "engine/allowance.hpp"
+#include "engine/front_variants.hpp"
 #include "geometry/describe.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
@@ -258,7 +259,7 @@ class Worker {
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
     bool changed = false;
-    while (true) {
+    while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
       const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
@@ -272,6 +273,7 @@ class Worker {
       changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
+    return changed;
   }
 
   const CurvedRegion& region_;
@@ -300,19 +302,6 @@ struct Best {
     work = worker.result();
   }
 };
-
-/// With other constants of the front.
-std::vector<Options> variants_of(const Options& asked) {
-  std::vector<Options> variants;
-  for (const double corner : {1.0, 0.9, 1.1})
-    for (const double side : {1.0, 0.5, 1.5}) {
-      variants.push_back(asked);
-      variants.back().front.corner_angle *= corner;
-      variants.back().front.side_edge_angle *= side;
-    }
-  variants.erase(variants.begin());  // as asked
-  return variants;
-}
 
 }  // namespace
 
@@ -346,7 +335,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
   constexpr std::size_t kMostTurned = 4;
   if (task == Task::convert && size <= options.retry_triangles && (best.work || fewest_turned <= kMostTurned)) {
     const Distrust nothing;
-    for (const Options& variant : variants_of(options)) {
+    for (const Options& variant : few_front_variants(options)) {
       Worker worker(region, variant, allowed, task, nothing);
       if (!worker.run()) continue;
       best.consider(worker);

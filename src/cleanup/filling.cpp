@@ -15,7 +15,9 @@ Index ahead(const Mesh& mesh, Index h, int steps) {
 
 /// Nodes along `steps` half-edges from h on: steps + 1 of them.
 std::vector<Vec2> points_along(const Mesh& mesh, Index h, int steps) {
-  std::vector<Vec2> points{mesh.point(mesh.origin(h))};
+  std::vector<Vec2> points;
+  points.reserve(std::size_t(steps) + 1);
+  points.push_back(mesh.point(mesh.origin(h)));
   for (; steps > 0; --steps, h = mesh.next(h)) points.push_back(mesh.point(mesh.target(h)));
   return points;
 }

@@ -25,6 +25,8 @@ struct Candidate {
   Action action;
   Index h, k;
   int gain;  ///< how much the score falls, by valences
+
+  bool operator==(const Candidate&) const = default;
 };
 
 /// Changes around v that lower the score by at least `least_gain`, best first.

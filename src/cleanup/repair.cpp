@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cleanup/attempt.hpp"
+#include "kernel/sort_unique.hpp"
 #include "smoothing/untangle.hpp"
 
 namespace qmorph::cleanup {
@@ -14,6 +15,11 @@ constexpr int kPasses = 3;
 /// Changes may cost this much of the valence score: shape comes first here.
 constexpr int kLeastGain = -6;
 constexpr int kMostCandidates = 16;
+/// Below this sine two changes are tried together: so many first ones, each with so many second ones, which together
+/// cost this much of the score at most.
+constexpr double kPoor = 0.45;
+constexpr std::size_t kMostFirst = 12, kMostSecond = 12;
+constexpr int kLeastGainOfTwo = -10;
 constexpr int kRings = 2;
 /// A corner of an element that the boundary keeps nearer to straight than to right is bad, whatever its sine.
 constexpr double kStrained = 135 * std::numbers::pi / 180;
@@ -49,11 +55,28 @@ class Repair {
     return changes_;
   }
 
+  std::size_t run_in_twos() {
+    std::vector<Index> poor;
+    for (Index f = 0; f < mesh_.face_slots(); ++f)
+      if (is_poor(f)) poor.push_back(f);
+    for (Index f : worst_first(mesh_, poor))
+      if (is_poor(f)) changes_ += improve_by_two(f);
+    return changes_;
+  }
+
  private:
+  bool is_poor(Index f) const {
+    return mesh_.is_live_face(f) && mesh_.degree(f) == 4 && !mesh_.is_above(f, kPoor) && !has_high_corner(f);
+  }
+
+  bool has_high_corner(Index f) const {
+    return has_corner(f, [&](Index v) { return mesh_.valence(v) > kMostValence; });
+  }
+
   bool is_bad(Index f) const {
     if (!mesh_.is_live_face(f) || mesh_.degree(f) != 4) return false;
     if (mesh_.is_above(f, relaxing_.target_quality) && !is_at_strained_corner(f)) return false;
-    return !has_corner(f, [&](Index v) { return mesh_.valence(v) > kMostValence; });
+    return !has_high_corner(f);
   }
 
   /// Too few quads share the angle of a corner of the boundary, so that no smoothing can help them.
@@ -109,14 +132,7 @@ class Repair {
 
   bool improve(Index f) {
     const std::vector<Index> corners = topology::nodes_of(mesh_, f);
-    std::vector<Candidate> candidates;
-    for (Index v : corners) {
-      const auto more = candidates_around(mesh_, score_, v, kLeastGain);
-      candidates.insert(candidates.end(), more.begin(), more.end());
-    }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-    if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
+    const std::vector<Candidate> candidates = best_around(corners, kLeastGain, kMostCandidates);
     for (const Candidate& c : candidates) {
       if (!may_try(f)) return false;
       std::vector<Index> near = nodes_near(mesh_, c);
@@ -141,6 +157,45 @@ class Repair {
     return false;
   }
 
+  /// Two changes, of which the first alone need not be for the better.
+  bool improve_by_two(Index f) {
+    const std::vector<Candidate> first = best_around(topology::nodes_of(mesh_, f), kLeastGainOfTwo, kMostFirst);
+    std::vector<Index> near;
+    for (Index g : topology::grow(mesh_, {f}, 1))
+      for (Index v : topology::nodes_of(mesh_, g)) near.push_back(v);
+    for (const Candidate& c : first) {
+      std::size_t seconds = 1;  // not known before the first change is made
+      for (std::size_t k = 0; k < seconds; ++k) {
+        if (budget_.is_spent()) return false;
+        const bool is_better = try_edit(near, [&](std::vector<Index>& nodes) {
+          nodes = near;
+          if (!apply(mesh_, c, nodes)) return false;
+          std::erase_if(nodes, [&](Index v) { return !mesh_.is_live_vertex(v); });
+          sort_unique(nodes);
+          const std::vector<Candidate> second = best_around(nodes, kLeastGainOfTwo - c.gain, kMostSecond);
+          seconds = second.size();
+          return k < seconds && apply(mesh_, second[k], nodes);
+        });
+        if (is_better) return true;
+      }
+    }
+    return false;
+  }
+
+  /// The first `most` changes around some nodes, by gain.
+  std::vector<Candidate> best_around(const std::vector<Index>& nodes, int least_gain, std::size_t most) const {
+    std::vector<Candidate> candidates;
+    for (Index v : nodes) {
+      if (mesh_.valence(v) > kMostValence) continue;
+      for (const Candidate& c : candidates_around(mesh_, score_, v, least_gain))
+        if (std::find(candidates.begin(), candidates.end(), c) == candidates.end()) candidates.push_back(c);
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+    if (candidates.size() > most) candidates.resize(most);
+    return candidates;
+  }
+
   template <class Edit>
   bool try_edit(const std::vector<Index>& near, const Edit& edit) {
     return attempt(mesh_, relaxing_, kRings, near, nodes_, edit, is_clearly_better);
@@ -159,6 +214,10 @@ class Repair {
 
 std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
   return Repair(mesh, smoothing, budget).run();
+}
+
+std::size_t repair_in_twos(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+  return Repair(mesh, smoothing, budget).run_in_twos();
 }
 
 }  // namespace qmorph::cleanup

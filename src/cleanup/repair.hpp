@@ -14,4 +14,8 @@ namespace qmorph::cleanup {
 /// The worst come first where the budget does not last for all. Returns the number of changes.
 std::size_t repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {});
 
+/// For poor elements that this has left, two changes together, since one alone may lead nowhere; kept if they raise the
+/// smallest sine around clearly.
+std::size_t repair_in_twos(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {});
+
 }  // namespace qmorph::cleanup

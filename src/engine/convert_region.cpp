@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/front_variants.hpp"
+#include "engine/grid_pairs.hpp"
 #include "engine/parts/convert_parts.hpp"
 #include "engine/prepare.hpp"
 #include "engine/worth.hpp"
@@ -64,6 +66,7 @@ class RegionConverter {
   Attempt run() {
     std::optional<SurfaceError> fault = find_needles(start_, plane_);
     if (!fault) {
+      if (auto grid = attempt_as_grid()) return std::move(*grid);
       if (auto parts = attempt_in_parts()) return std::move(*parts);
       const std::size_t size = count_faces(start_, 3);  // fans may have been refined
       constexpr std::size_t kFewest = 3;                // with fewer a front has no choice
@@ -75,6 +78,7 @@ class RegionConverter {
         result = begin(std::move(start_), options_, allowed_);
         finish(result);
         take_rows(result);
+        take_chords(result);
       }
       if (!result.fault) return result;
       fault = result.fault;
@@ -83,6 +87,7 @@ class RegionConverter {
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
     Attempt paired = begin(std::move(start_), options_, allowed_ - double(cost_), Way::without_front);
     finish(paired);
+    take_chords(paired);
     if (paired.fault) throw *fault;
     return paired;
   }
@@ -122,6 +127,20 @@ class RegionConverter {
     }
   }
 
+  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth more
+  /// and the worst is no worse.
+  void take_chords(Attempt& best) {
+    constexpr double kPoor = 0.3;
+    const Worth worth = judge(best.mesh);
+    if (best.fault || worth.least >= kPoor) return;
+    auto chords = bands::lay_chords(region_);
+    if (!chords) return;
+    Attempt laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
+    finish(laid);
+    const Worth one = judge(laid.mesh);
+    if (!laid.fault && one.least >= worth.least && one.sum() > worth.sum()) best = std::move(laid);
+  }
+
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
   /// front begins with.
   Attempt best_of_tries(std::size_t size) {
@@ -131,6 +150,7 @@ class RegionConverter {
     Attempt best = begin(start_, options_, allowed_, Way::one_of_many);
     finish(best);
     take_rows(best);
+    take_chords(best);
     Worth worth = judge(best.mesh);
     if (best.fault || worth.least < kHopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;
@@ -227,6 +247,25 @@ class RegionConverter {
   bool would_repeat(const FrontOptions& options) const {
     return std::any_of(fronts_.begin(), fronts_.end(),
                        [&](const Front& front) { return front.decisions.would_be_same(options); });
+  }
+
+  /// Where the triangles are a grid's, their cells; moved only if that makes them better. Nothing if a cell is poor,
+  /// or there is no grid.
+  std::optional<Attempt> attempt_as_grid() {
+    constexpr double kSame = 1e-6;  // rounding
+    auto cells = options_.layers ? pair_as_grid(start_) : std::nullopt;
+    if (!cells) return {};
+    const Worth before = judge(*cells);
+    Attempt result{std::move(*cells), options_, allowed_};
+    Attempt moved{result.mesh, options_, allowed_};
+    Pipeline pipeline(moved.options, moved.report, moved.record, input_, allowed_);
+    pipeline.polish(moved.mesh);
+    const Worth after = judge(moved.mesh);
+    cost_ += moved.mesh.work();
+    if (after.least >= before.least - kSame && after.sum() > before.sum() + kSame) result = std::move(moved);
+    result.fault = find_fault(result.mesh, region_, plane_);
+    if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
+    return result;
   }
 
   /// Nothing if the region is not large, or has no valid result in parts.

@@ -10,4 +10,7 @@ namespace qmorph {
 /// thousand small regions, each of these adds most to what those before it have reached.
 std::vector<Options> front_variants(const Options& asked);
 
+/// Fewer, for regions of curved surfaces, where a try costs more: other angles of corners and of side edges.
+std::vector<Options> few_front_variants(const Options& asked);
+
 }  // namespace qmorph

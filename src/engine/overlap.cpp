@@ -2,8 +2,12 @@
 #include "engine/overlap.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "geometry/predicates.hpp"
@@ -27,18 +31,70 @@ bool cross_properly(const Segment& s, const Segment& t) {
 /// The wedge of a convex corner from direction a counter-clockwise to b holds the direction of the x axis.
 bool holds_x_axis(const Vec2& a, const Vec2& b) { return (a.y() < 0 || (a.y() == 0 && a.x() > 0)) && b.y() > 0; }
 
+SurfaceError overlap_around(const Eigen::Vector3d& place, Index row) {
+  return SurfaceError(
+      "the triangles around the node at " + describe(place) + " overlap; mesh the surface anew or repair it",
+      {.kind = ErrorKind::overlap, .place = place, .subject = node_row(row)});
+}
+
 void require_single_cover(const Region& region, const Plane& plane) {
   std::vector<unsigned char> covers(region.points.size(), 0);
   for (const auto& t : region.triangles)
     for (int i = 0; i < 3; ++i) {
       const Vec2& p = region.points[t[i]];
       if (!holds_x_axis(region.points[t[(i + 1) % 3]] - p, region.points[t[(i + 2) % 3]] - p)) continue;
-      if (++covers[t[i]] > 1)
-        throw SurfaceError(
-            "the triangles around the node at " + describe(plane.to_space(p)) +
-                " overlap; mesh the surface anew or repair it",
-            {.kind = ErrorKind::overlap, .place = plane.to_space(p), .subject = node_row(region.node[t[i]])});
+      if (++covers[t[i]] > 1) throw overlap_around(plane.to_space(p), region.node[t[i]]);
     }
+}
+
+/// The triangles around a node of the outline, from the first side counter-clockwise to the last, seen from the node.
+struct Fan {
+  Vec2 place;
+  double start = 0, width = 0;  ///< angles
+  Index row = kNone;            ///< of Patch::points
+
+  bool is_before(const Fan& other) const {
+    return std::tuple(place.x(), place.y(), start, width, row) <
+           std::tuple(other.place.x(), other.place.y(), other.start, other.width, other.row);
+  }
+};
+
+double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
+
+std::vector<Fan> fans_of(const std::vector<Region>& regions) {
+  std::vector<Fan> fans;
+  for (const Region& region : regions) {
+    std::vector<Index> fan_of(region.points.size(), kNone);
+    const auto corner = [&](Index c) { return region.triangles[c / 3][c % 3]; };
+    const auto next = [](Index c) { return c % 3 == 2 ? c - 2 : c + 1; };
+    const auto way = [&](Index c, Index to) { return Vec2(region.points[corner(to)] - region.points[corner(c)]); };
+    for (Index c = 0; c < region.open.size(); ++c) {
+      if (!region.open[c]) continue;
+      fan_of[corner(c)] = Index(fans.size());
+      fans.push_back({region.points[corner(c)], angle_of(way(c, next(c))), 0, region.node[corner(c)]});
+    }
+    for (Index c = 0; c < region.open.size(); ++c) {
+      if (fan_of[corner(c)] == kNone) continue;
+      const Vec2 first = way(c, next(c)), last = way(c, next(next(c)));
+      fans[fan_of[corner(c)]].width += std::atan2(cross(first, last), first.dot(last));
+    }
+  }
+  std::sort(fans.begin(), fans.end(), [](const Fan& a, const Fan& b) { return a.is_before(b); });
+  return fans;
+}
+
+/// Fans at one place lie side by side, whether they belong to one region and one node or not.
+void require_fans_apart(const std::vector<Region>& regions, const Plane& plane) {
+  constexpr double kTurn = 2 * std::numbers::pi, kTouching = 1e-6;
+  const std::vector<Fan> fans = fans_of(regions);
+  for (std::size_t first = 0, last = 0; first < fans.size(); first = last) {
+    while (last < fans.size() && fans[last].place == fans[first].place) ++last;
+    for (std::size_t i = first; i < last; ++i) {
+      const double following = i + 1 < last ? fans[i + 1].start : fans[first].start + kTurn;
+      if (fans[i].start + fans[i].width > following + kTouching)
+        throw overlap_around(plane.to_space(fans[i].place), fans[i].row);
+    }
+  }
 }
 
 std::vector<Segment> outline_of(const std::vector<Region>& regions) {
@@ -147,8 +203,30 @@ void require_sound(const Patch& patch) {
   for (Index v : patch.fixed) require_node(v);
 }
 
+bool is_turned_over(const std::array<Vec2, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  return orientation(a, b, c) < 0 &&
+         std::min({corner_sine(a, b, c), corner_sine(b, c, a), corner_sine(c, a, b)}) < -kDegenerateSine;
+}
+
+SurfaceError turned_over(const std::array<Vec2, 3>& corners, const Plane& plane, std::optional<ErrorSubject> subject) {
+  std::string places;
+  for (const Vec2& corner : corners) places += (places.empty() ? "" : ", ") + describe(plane.to_space(corner));
+  return SurfaceError(
+      "the triangle " + places + " is turned over, so triangles overlap; mesh the surface anew or repair it",
+      {.kind = ErrorKind::overlap, .place = plane.to_space(corners[0]), .subject = subject});
+}
+
+void require_fronts(const std::vector<Region>& regions, const Plane& plane) {
+  for (const Region& region : regions)
+    for (const auto& [a, b, c] : region.triangles)
+      if (const std::array corners{region.points[a], region.points[b], region.points[c]}; is_turned_over(corners))
+        throw turned_over(corners, plane, node_row(region.node[a]));
+}
+
 void require_no_overlap(const std::vector<Region>& regions, const Plane& plane) {
   for (const Region& region : regions) require_single_cover(region, plane);
+  require_fans_apart(regions, plane);
   require_no_crossing(outline_of(regions), plane);
 }
 

@@ -31,6 +31,8 @@ using Clock = std::chrono::steady_clock;
 /// there for the next.
 constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
                  kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
+/// The share that repairs in twos may cost: many tries for few elements.
+constexpr double kRepairInTwos = 0.01;
 
 Pipeline::Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start,
                    double allowed)
@@ -77,6 +79,8 @@ kernel::Budget Pipeline::until(const kernel::Mesh& mesh, double share) const {
   const auto most = std::size_t(share * allowed_);
   return {mesh, most - std::min(most, mesh.work())};
 }
+
+double Pipeline::spent(const kernel::Mesh& mesh) const { return allowed_ > 0 ? double(mesh.work()) / allowed_ : 1; }
 
 void Pipeline::finish(kernel::Mesh& mesh) {
   clean(mesh);
@@ -146,6 +150,7 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   note(shape);
   cleanup::replace_poor_cavities(mesh, options_.smoothing, cavities);
   note(cavities);
+  cleanup::repair_in_twos(mesh, options_.smoothing, until(mesh, std::min(1.0, spent(mesh) + kRepairInTwos)));
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     const kernel::Budget last = until(mesh, 1);

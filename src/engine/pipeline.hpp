@@ -41,6 +41,8 @@ class Pipeline {
  private:
   /// Until all stages together have cost this share of what they may.
   kernel::Budget until(const kernel::Mesh& mesh, double share) const;
+  /// The share that they have cost so far.
+  double spent(const kernel::Mesh& mesh) const;
   void note(const kernel::Budget& budget) { report_.budgets_spent += budget.is_spent(); }
   void remove_doublet(kernel::Mesh& mesh, Index v) const;
   /// `share` of all stages together; how they compare was measured.

@@ -13,11 +13,14 @@ namespace {
 using Eigen::Vector3d;
 
 void require_finite(const Patch& patch) {
-  for (std::size_t i = 0; i < patch.points.size(); ++i)
-    if (!patch.points[i].allFinite())
-      throw SurfaceError(
-          "node " + std::to_string(i) + " has the coordinates " + describe(patch.points[i]) + "; repair the input",
-          {.kind = ErrorKind::not_finite, .subject = node_row(i)});
+  constexpr double kLargest = 1e75;  // squared areas overflow beyond it
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const Vector3d& p = patch.points[i];
+    if (p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargest) continue;
+    throw SurfaceError("node " + std::to_string(i) + " has the coordinates " + describe(p) +
+                           (p.allFinite() ? ", too large to compute with; repair the input" : "; repair the input"),
+                       {.kind = ErrorKind::not_finite, .subject = node_row(i)});
+  }
 }
 
 /// Of the triangles: the box around them, twice their area as a vector, and without its direction.

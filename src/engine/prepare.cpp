@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "engine/prepare.hpp"
 
+#include "engine/overlap.hpp"
 #include "engine/regions.hpp"
 #include "geometry/predicates.hpp"
 #include "qmorph/error.hpp"
@@ -86,12 +87,8 @@ void repair_input(Mesh& mesh, const std::vector<Index>& node, const Plane& plane
   for (Index f = 0; f < mesh.face_slots(); ++f) {
     if (!mesh.is_live_face(f) || mesh.is_valid_face(f)) continue;
     const auto n = topology::nodes_of(mesh, f);
-    if (orientation(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])) < 0 &&
-        mesh.smallest_sine(f) < -kDegenerateSine)
-      throw SurfaceError(
-          "the triangle " + corners_of(mesh, plane, f) +
-              " is turned over, so triangles overlap; mesh the surface anew or repair it",
-          {.kind = ErrorKind::overlap, .place = corner_of(mesh, plane, f), .subject = subject_of(mesh, node, f)});
+    const std::array corners{mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2])};
+    if (is_turned_over(corners)) throw turned_over(corners, plane, subject_of(mesh, node, f));
     flat.push_back(f);
   }
   for (Index f : flat)

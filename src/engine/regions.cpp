@@ -2,6 +2,7 @@
 #include "engine/regions.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "geometry/z_curve.hpp"
@@ -71,29 +72,29 @@ class Sides {
   /// ascending.
   std::vector<Index> sides_of_many(const Patch& patch) const {
     struct Side {
-      Index low, high, side;
-      bool operator<(const Side& other) const {
-        return std::tie(low, high, side) < std::tie(other.low, other.high, other.side);
-      }
+      Index high, side;
+      bool operator<(const Side& other) const { return std::tie(high, side) < std::tie(other.high, other.side); }
     };
-    std::vector<Side> sides;
-    sides.reserve(node_.size());
-    for (Index c = 0; c < node_.size(); ++c)
-      sides.push_back({std::min(node_[c], node_[next(c)]), std::max(node_[c], node_[next(c)]), c});
-    std::sort(sides.begin(), sides.end());
+    const auto ends = [&](Index c) -> std::pair<Index, Index> { return std::minmax(node_[c], node_[next(c)]); };
+    std::vector<Index> last(nodes(), 0);  // by lower node: where its sides end
+    for (Index c = 0; c < node_.size(); ++c) ++last[ends(c).first];
+    std::partial_sum(last.begin(), last.end(), last.begin());
+    std::vector<Index> place = last;
+    std::vector<Side> sides(node_.size());
+    for (Index c = Index(node_.size()); c-- > 0;) sides[--place[ends(c).first]] = {ends(c).second, c};
     std::vector<std::pair<Index, Index>> lines;
     for (const auto& [a, b] : patch.constraints)
       if (number_[a] != kNone && number_[b] != kNone) lines.push_back(std::minmax(number_[a], number_[b]));
     std::sort(lines.begin(), lines.end());
     std::vector<Index> many;
-    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-      while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high)
-        ++last;
-      const bool alike = last - first == 2 && node_[sides[first].side] == node_[sides[first + 1].side];
-      const bool on_line =
-          std::binary_search(lines.begin(), lines.end(), std::pair(sides[first].low, sides[first].high));
-      if (last - first > 2 || (alike && on_line))
-        for (std::size_t k = first; k < last; ++k) many.push_back(sides[k].side);
+    for (Index low = 0; low < nodes(); ++low) {
+      std::sort(sides.begin() + place[low], sides.begin() + last[low]);
+      for (Index k = place[low], after = k; k < last[low]; k = after) {
+        while (after < last[low] && sides[after].high == sides[k].high) ++after;
+        const bool alike = after - k == 2 && node_[sides[k].side] == node_[sides[k + 1].side];
+        if (after - k > 2 || (alike && std::binary_search(lines.begin(), lines.end(), std::pair(low, sides[k].high))))
+          for (; k < after; ++k) many.push_back(sides[k].side);
+      }
     }
     std::sort(many.begin(), many.end());
     return many;

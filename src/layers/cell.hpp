@@ -19,7 +19,7 @@ struct Cell {
   double aspect() const { return length / height; }
 };
 
-/// No corner is sharper than 20 degrees, or blunter than 160.
+/// No corner is sharper than 12 degrees, or blunter than 168.
 bool is_convex(const Cell& cell);
 
 /// The cell on side `base` whose diagonal is `diagonal`, one of the other two sides of that triangle and no wall.

@@ -57,7 +57,7 @@ bool differ_by_less(double a, double b, double factor) { return a <= factor * b 
 }  // namespace
 
 Column column_on_wall(const Sides& sides, Index wall) {
-  constexpr double kLeast = 30 * kDegree, kMost = 120 * kDegree;
+  constexpr double kLeast = 30 * kDegree, kMost = 165 * kDegree;
   const auto bisector = [&](Index c) { return std::clamp(wall_angle(sides, c) / 2, kLeast, kMost); };
   Column column{.base = wall, .straight = {bisector(wall), bisector(sides.next_wall(wall))}};
   column.feet.push_back(middle(sides, wall));

@@ -9,6 +9,7 @@
 #include "layers/pair.hpp"
 #include "layers/remnants.hpp"
 #include "layers/strips.hpp"
+#include "layers/tips.hpp"
 #include "layers/walls.hpp"
 
 namespace qmorph::layers {
@@ -126,6 +127,20 @@ void drop_cells_at(Cells& cells, const std::vector<bool>& nodes) {
       cells.drop(i);
 }
 
+/// make_even(), but if cuts would go through a large share of all cells, those are left to the front: a grid whose rows
+/// end in a triangle each would become twice as fine.
+std::vector<Cut> make_even_by_few_cuts(Cells& cells, const Parts& regions) {
+  constexpr double kMostCut = 0.25;
+  std::vector<Cut> cuts = make_even(cells, regions);
+  std::size_t cut = 0, all = 0;
+  for (const Cut& one : cuts) cut += one.cells.size();
+  for (Index i = 0; i < cells.size(); ++i) all += cells.is_live(i);
+  if (double(cut) <= kMostCut * double(all)) return cuts;
+  for (const Cut& one : cuts)
+    for (Index i : one.cells) cells.drop(i);
+  return make_even(cells, regions);
+}
+
 }  // namespace
 
 std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& without) {
@@ -144,10 +159,11 @@ std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& w
   fill_gaps(cells);
   drop_chance_rows(cells, thin);
   drop_cells_at(cells, without);
-  const std::vector<Cut> cuts = make_even(cells, regions);
+  const std::vector<Cut> cuts = make_even_by_few_cuts(cells, regions);
   Layers layers;
   layers.patch = Writer(cells, cuts).write();
-  pair_remnants(layers.patch);
+  const std::size_t pairs = pair_remnants(layers.patch);
+  widen_tips(layers.patch, layers.patch.quads.size() - pairs);
   layers.quads = layers.patch.quads.size() - patch.quads.size();
   if (layers.quads == 0) return std::nullopt;
   layers.regions = regions.sizes.size();

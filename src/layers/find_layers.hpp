@@ -17,7 +17,7 @@ namespace qmorph::layers {
 struct Layers {
   /// `triangles` are those that are left. To `quads` the layers' are added, and to `points` those in the middle of
   /// columns that were cut in two so that nothing odd is left between layers. No other point is new, and none has
-  /// moved.
+  /// moved but those at tips (tips.hpp).
   Patch patch;
   std::size_t quads = 0;                     ///< of layers
   std::size_t regions = 0, odd_regions = 0;  ///< of triangles, joined through edges that are no walls, before

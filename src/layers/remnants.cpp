@@ -5,6 +5,7 @@
 #include <map>
 
 #include "layers/forest.hpp"
+#include "layers/walls.hpp"
 
 namespace qmorph::layers {
 namespace {
@@ -213,9 +214,16 @@ void drop_broken_rows(Cells& cells, const Parts& regions) {
         visit(i, regions.part_of[cells[i].triangles[0]]);
   };
   for_each_single([&](Index, Index region) { ++singles[region]; });
+  std::vector<bool> is_broken(regions.sizes.size(), false);
   for_each_single([&](Index i, Index region) {
-    if (2 * double(singles[region]) < kWhole * double(regions.sizes[region])) cells.drop(i);
+    if (2 * double(singles[region]) >= kWhole * double(regions.sizes[region])) return;
+    cells.drop(i);
+    is_broken[region] = true;
   });
+  // What the row ended in is no row any more.
+  for (Index i = 0; i < cells.size(); ++i)
+    if (cells.is_live(i) && is_broken[regions.part_of[cells[i].triangles[0]]] && cells.row_length(i, 0, kRow) < kRow)
+      cells.drop(i);
 }
 
 std::vector<Cut> make_even(Cells& cells, const Parts& regions) {

@@ -20,6 +20,7 @@ struct CurveWish {
   int segments = 1;    ///< what a mesher makes of it; 0 for a curve that has no length
   int least = 1;       ///< fewer will not do
   bool fixed = false;  ///< no other number will do
+  double weight = 1;   ///< how much it counts that the number is off
 };
 
 /// Curves on one side of a band, and those that face them: both sides want as many segments.

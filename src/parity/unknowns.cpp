@@ -13,7 +13,7 @@ double harm(const CurveWish& curve, int segments) {
   constexpr double kHalved = 4;
   constexpr double kShortestWish = 0.5;
   const double wish = std::max(curve.wish, kShortestWish), off = std::log(segments / wish);
-  return wish * off * off + (curve.segments == 1 && segments > 1 ? kHalved : 0);
+  return curve.weight * wish * off * off + (curve.segments == 1 && segments > 1 ? kHalved : 0);
 }
 
 Unknowns::Unknowns(const std::vector<CurveWish>& curves, const std::vector<std::vector<Index>>& sets)

@@ -17,7 +17,7 @@ constexpr auto kAnyLayout = py::array::c_style | py::array::forcecast;
 
 [[noreturn]] void refuse(const char* name, const char* wanted) { throw UsageError(std::string(name) + ": " + wanted); }
 
-/// As NumPy sees it; an empty one where it is None.
+/// Anything that NumPy can make an array of; empty for None.
 py::array array_from(const py::object& object, const char* name) {
   if (object.is_none()) return py::array_t<double>(0);
   py::array array = py::array::ensure(object);
@@ -30,7 +30,7 @@ py::array array_from(const py::object& object, const char* name) {
 
 using Numbers = py::array_t<std::int64_t, kAnyLayout>;
 
-/// Whole numbers. Fractions are refused, for NumPy would round them without a word.
+/// Integers. Fractions are refused, since NumPy would round them silently.
 Numbers whole_numbers(const py::array& array, const char* name) {
   const char kind = array.dtype().kind();
   if (array.size() > 0 && kind != 'i' && kind != 'u') refuse(name, "node numbers must be integers");
@@ -42,7 +42,7 @@ Index node_from(std::int64_t number, const char* name) {
   return Index(number);
 }
 
-/// An edge that the mesh does not have cannot stay.
+/// Refuses constraints that are not edges of the mesh.
 void refuse_constraints_across(const Patch& patch) {
   if (patch.constraints.empty()) return;
   std::set<std::pair<Index, Index>> edges;
@@ -55,8 +55,9 @@ void refuse_constraints_across(const Patch& patch) {
   add(patch.quads);
   for (const auto& [a, b] : patch.constraints)
     if (!edges.contains(std::minmax(a, b)))
-      throw UsageError("constraints: " + std::to_string(a) + " - " + std::to_string(b) + " is no edge of an element",
-                       {.place = patch.points[a]});
+      throw UsageError(
+          "constraints: " + std::to_string(a) + " - " + std::to_string(b) + " is not an edge of any element",
+          {.place = patch.points[a]});
 }
 
 }  // namespace
@@ -64,8 +65,8 @@ void refuse_constraints_across(const Patch& patch) {
 std::vector<Eigen::Vector3d> points_from(const py::object& object) {
   const py::array array = array_from(object, "points");
   if (array.ndim() != 2 || (array.shape(1) != 2 && array.shape(1) != 3))
-    refuse("points", "two or three columns are wanted");
-  if (array.dtype().kind() == 'c' || array.dtype().kind() == 'O') refuse("points", "real numbers are wanted");
+    refuse("points", "two or three columns are expected");
+  if (array.dtype().kind() == 'c' || array.dtype().kind() == 'O') refuse("points", "real numbers are expected");
   const py::array_t<double, kAnyLayout> numbers(array);
   const auto view = numbers.unchecked<2>();
   std::vector<Eigen::Vector3d> points(std::size_t(view.shape(0)));
@@ -79,7 +80,7 @@ std::vector<std::array<Index, N>> elements_from(const py::object& object, const 
   const py::array array = array_from(object, name);
   if (array.size() == 0) return {};
   if (array.ndim() != 2 || array.shape(1) != py::ssize_t(N))
-    refuse(name, (std::to_string(N) + " columns of node numbers are wanted").c_str());
+    refuse(name, (std::to_string(N) + " columns of node numbers are expected").c_str());
   const Numbers numbers = whole_numbers(array, name);
   const auto view = numbers.unchecked<2>();
   std::vector<std::array<Index, N>> elements(std::size_t(view.shape(0)));
@@ -94,7 +95,7 @@ template std::vector<std::array<Index, 4>> elements_from<4>(const py::object&, c
 std::vector<Index> nodes_from(const py::object& object, const char* name) {
   const py::array array = array_from(object, name);
   if (array.size() == 0) return {};
-  if (array.ndim() != 1) refuse(name, "one column of node numbers is wanted");
+  if (array.ndim() != 1) refuse(name, "one column of node numbers is expected");
   const Numbers numbers = whole_numbers(array, name);
   std::vector<Index> nodes;
   for (py::ssize_t i = 0; i < numbers.size(); ++i) nodes.push_back(node_from(numbers.at(i), name));
@@ -109,9 +110,9 @@ Patch patch_from(const py::object& points, const py::object& triangles, const py
   patch.quads = elements_from<4>(quads, "quads");
   patch.constraints = elements_from<2>(constraints, "constraints");
   patch.fixed = nodes_from(fixed, "fixed");
-  // The engine checks the nodes of elements; these it takes as they are.
+  // The engine would refuse these, too, but as an error of the surface that does not name the argument.
   const auto check = [&](Index v, const char* name) {
-    if (v >= patch.points.size()) refuse(name, "a node number is larger than there are points");
+    if (v >= patch.points.size()) refuse(name, "a node number is too large for the number of points");
   };
   for (const auto& [a, b] : patch.constraints) check(a, "constraints"), check(b, "constraints");
   for (Index v : patch.fixed) check(v, "fixed");
@@ -120,7 +121,7 @@ Patch patch_from(const py::object& points, const py::object& triangles, const py
 }
 
 py::dict arrays_of(QuadMesh&& mesh, const std::vector<Eigen::Vector3d>& before) {
-  // Of a point that is where it was; what else there is to know of the input's points is not true of one that has moved.
+  // -1 for points that have moved: callers look up data of the input's points by this, which would be wrong for them.
   std::vector<std::int32_t> source(mesh.source.size(), -1);
   for (std::size_t i = 0; i < source.size(); ++i)
     if (mesh.source[i] != kNone && before[mesh.source[i]] == mesh.points[i]) source[i] = std::int32_t(mesh.source[i]);

@@ -12,11 +12,12 @@
 
 namespace qmorph::python {
 
-/// Coordinates in two columns (z = 0) or three, of anything that NumPy can turn into doubles.
+/// Coordinates in two columns (z = 0) or three: anything that NumPy can turn into doubles.
 /// \throws UsageError for another shape
 std::vector<Eigen::Vector3d> points_from(const pybind11::object& array);
 
-/// Rows of node numbers from 0; no row for None. \throws UsageError for another shape, fractions, or a number below 0
+/// Rows of node numbers, counted from 0; None gives no rows. \throws UsageError for another shape, fractions, or a
+/// number below 0
 template <std::size_t N>
 std::vector<std::array<Index, N>> elements_from(const pybind11::object& array, const char* name);
 std::vector<Index> nodes_from(const pybind11::object& array, const char* name);
@@ -24,7 +25,7 @@ std::vector<Index> nodes_from(const pybind11::object& array, const char* name);
 Patch patch_from(const pybind11::object& points, const pybind11::object& triangles, const pybind11::object& quads,
                  const pybind11::object& constraints, const pybind11::object& fixed);
 
-/// A view of the vector's numbers, which it keeps alive: nothing is copied.
+/// An array that owns the vector: no number is copied.
 template <class Row, class Number, int kColumns>
 pybind11::array view_of(std::vector<Row>&& rows) {
   static_assert(sizeof(Row) == kColumns * sizeof(Number));
@@ -36,7 +37,7 @@ pybind11::array view_of(std::vector<Row>&& rows) {
   return pybind11::array_t<Number>({count, pybind11::ssize_t(kColumns)}, data, owner);
 }
 
-/// "points", "quads", "triangles" and "source": views of what the mesh has held. `before`: the input's points.
+/// The mesh as arrays "points", "quads", "triangles" and "source". `before`: the input's points.
 pybind11::dict arrays_of(QuadMesh&& mesh, const std::vector<Eigen::Vector3d>& before);
 
 }  // namespace qmorph::python

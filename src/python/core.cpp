@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// qmorph._core: arrays in, arrays out. qmorph/__init__.py is what people call.
+// qmorph._core: arrays in, arrays out. People call qmorph/__init__.py.
 #include <pybind11/stl.h>
 
 #include "python/arrays.hpp"
@@ -49,7 +49,7 @@ py::dict measure_arrays(const py::object& points, const py::object& triangles, c
   const auto check = [&](const auto& elements) {
     for (const auto& element : elements)
       for (Index v : element)
-        if (v >= patch.points.size()) throw UsageError("an element uses a node that there is not");
+        if (v >= patch.points.size()) throw UsageError("an element uses a node that does not exist");
   };
   check(patch.triangles);
   check(patch.quads);
@@ -61,7 +61,7 @@ py::dict measure_arrays(const py::object& points, const py::object& triangles, c
   return figures;
 }
 
-/// For each place the row of the triangle that it is on or nearest to, -1 where there is none.
+/// For each place the row of the triangle that it lies on or is nearest to; -1 if there are no triangles.
 py::array locate_places(const py::object& places, const py::object& points, const py::object& triangles) {
   const std::vector<Eigen::Vector3d> all = python::points_from(points);
   const auto elements = python::elements_from<3>(triangles, "triangles");

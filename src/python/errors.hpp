@@ -2,8 +2,8 @@
 #pragma once
 namespace qmorph::python {
 
-/// Our exceptions become those of qmorph/errors.py, with kind, place and subject as attributes. To be called once in
-/// each module.
+/// Translates our exceptions into those of qmorph/errors.py, with kind, place and subject as attributes. To be called
+/// once in each module.
 void register_errors();
 
 }  // namespace qmorph::python

@@ -23,7 +23,7 @@ double number_from(const std::string& name, const py::handle& value) {
   try {
     return py::cast<double>(value);
   } catch (const py::cast_error&) {
-    throw UsageError(name + ": a number is wanted");
+    throw UsageError(name + ": a number is expected");
   }
 }
 
@@ -31,7 +31,7 @@ SmoothingMethod method_from(const py::handle& value) {
   const std::string name = py::str(value);
   if (name == "shape_energy") return SmoothingMethod::shape_energy;
   if (name == "thesis") return SmoothingMethod::thesis;
-  throw UsageError("smoothing: 'shape_energy' or 'thesis' is wanted, not '" + name + "'");
+  throw UsageError("smoothing: 'shape_energy' or 'thesis' is expected, not '" + name + "'");
 }
 
 }  // namespace
@@ -46,14 +46,14 @@ Options options_from(const py::dict& named) {
     } else if (name == "threads") {
       const double count = number_from(name, value);
       if (!(count >= 0 && count <= 1e6) || count != std::floor(count))
-        throw UsageError("threads: a whole number from 0 is wanted");
+        throw UsageError("threads: a whole number, 0 or more, is expected");
       options.threads = int(count);
     } else {
       const auto known = std::find_if(names.begin(), names.end(), [&](const std::string& one) {
         return one == name || as_written(one, '_') == name;
       });
       if (known == names.end())
-        throw UsageError("there is no option '" + name + "'; help(qmorph) and qmorph.option_names() have them all");
+        throw UsageError("there is no option '" + name + "'; help(qmorph) and qmorph.option_names() list them all");
       set_option(options, *known, number_from(name, value));
     }
   }

@@ -10,8 +10,8 @@
 
 namespace qmorph::python {
 
-/// Names of `--set` (a dot may be an underscore), "threads" and "smoothing". \throws UsageError for another name or
-/// value
+/// Options by the names of `--set` (with underscores for dots), "threads" and "smoothing". \throws UsageError for
+/// another name or value
 Options options_from(const pybind11::dict& named);
 
 pybind11::dict dict_of(const Quality& quality);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// qmorph._session: the model of the running Gmsh session. qmorph/gmsh.py is what people call.
+// qmorph._session: the model of the running Gmsh session. People call qmorph/gmsh.py.
 #include <pybind11/stl.h>
 
 #include <cstdint>
@@ -93,6 +93,6 @@ PYBIND11_MODULE(_session, module) {
       "measure_surfaces", [](const std::vector<int>& surfaces) { return dict_of(session::measure_surfaces(surfaces)); },
       "surfaces"_a);
   module.def("make_even", make_even, "surfaces"_a, "keep_curves"_a);
-  // Two Gmsh libraries in one process have a session each, which do not see each other.
+  // Two Gmsh libraries in one process have separate sessions that know nothing of each other.
   module.def("address_of_gmsh", [] { return reinterpret_cast<std::uintptr_t>(&gmshInitialize); });
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{50};
 
-/// What both threads know.
+/// What the two threads share.
 struct Shared {
   std::mutex mutex;
   std::condition_variable changed;
@@ -33,13 +33,13 @@ struct Shared {
   }
 };
 
-/// False itself, or NumPy's. What else is false as a condition may be any function's result.
+/// Python's False, or NumPy's. Other values that count as false, such as None, do not end the work.
 bool is_false(const py::object& answer) {
   const std::string type = py::str(py::type::handle_of(answer).attr("__name__"));
   return (type == "bool" || type == "bool_") && PyObject_IsTrue(answer.ptr()) == 0;
 }
 
-/// Ends the work and waits for it, also where Python unwinds a thread of a process that ends.
+/// Ends the work and waits for it, also when Python unwinds a thread because the process ends.
 class Worker {
  public:
   Worker(Shared& shared, std::function<void()> work) : shared_(shared), thread_(std::move(work)) {}
@@ -107,8 +107,8 @@ void work_while_waiting(const Options& options, const py::object& progress,
   for (bool is_done = false; !is_done;) {
     std::string stage;
     double share = 0;
-    // Not by an object whose destructor takes the lock: where the interpreter has ended, that ends the thread, which
-    // destructors do not survive.
+    // Not by an object whose destructor takes the lock: once the interpreter has ended, taking it ends the thread, and
+    // that must not happen inside a destructor.
     PyThreadState* const python = PyEval_SaveThread();
     {
       std::unique_lock lock(shared.mutex);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "chart/creases.hpp"
 #include "quality/shapes.hpp"
 #include "space/corners.hpp"
 #include "space/element_sides.hpp"
@@ -29,15 +30,18 @@ double distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
 
 class Explanation {
  public:
-  Explanation(const Patch& before, const QuadMesh& after)
-      : before_(before), after_(after), sides_(after.points.size(), after.triangles, after.quads, constraints()) {}
+  Explanation(const Patch& before, const QuadMesh& after, double crease_angle)
+      : before_(before),
+        after_(after),
+        is_curved_(!plane_normal(before).has_value()),
+        sides_(after.points.size(), after.triangles, after.quads, kept_edges(crease_angle)) {}
 
   PoorBecause reason(Index quad) {
     const Index element = Index(after_.triangles.size()) + quad;
     if (was_there(quad)) return PoorBecause::kept;
     if (fills_sharp_corner(element) || is_alone(element)) return PoorBecause::boundary_angle;
-    const std::set<Index> near = neighbourhood(element);
-    if (is_narrow(near)) return PoorBecause::narrow;
+    const std::set<Index> near = neighbours({element});
+    if (is_narrow(near) || is_beside_long_edge(quad, near)) return PoorBecause::narrow;
     if (std::any_of(near.begin(), near.end(), [&](Index e) { return sides_.is_triangle(e); }))
       return PoorBecause::odd_region;
     if (turns_sharply(quad, element)) return PoorBecause::input_geometry;
@@ -47,13 +51,22 @@ class Explanation {
  private:
   using Edge = std::array<Index, 2>;
 
-  std::vector<Edge> constraints() const {
+  /// Constraints, and creases that are not told from them in the result.
+  std::vector<Edge> kept_edges(double crease_angle) const {
     std::vector<Index> row(before_.points.size(), kNone);
     for (Index i = 0; i < after_.source.size(); ++i)
       if (after_.source[i] != kNone) row[after_.source[i]] = i;
     std::vector<Edge> edges;
-    for (const auto& [a, b] : before_.constraints)
+    const auto add = [&](Index a, Index b) {
       if (row[a] != kNone && row[b] != kNone) edges.push_back({row[a], row[b]});
+    };
+    for (const auto& [a, b] : before_.constraints) add(a, b);
+    if (is_curved_ && !before_.triangles.empty()) {
+      std::vector<space::Background::Edge> barriers;
+      for (const auto& [a, b] : before_.constraints) barriers.push_back({a, b});
+      const space::Background surface(before_.points, before_.triangles, barriers);
+      for (const auto& [a, b] : chart::find_creases(surface, crease_angle)) add(a, b);
+    }
     return edges;
   }
 
@@ -73,11 +86,15 @@ class Explanation {
 
   bool is_open(Index side) const { return sides_.opposite(side) == kNone; }
 
-  /// One of its corners lies between two kept edges with so small an angle that no element there can be good.
+  /// One of its corners lies between two kept edges with so small an angle that no element there can be good, be it
+  /// alone between them or not.
   bool fills_sharp_corner(Index element) const {
     const double sharp = std::asin(kPoorQuad);
-    for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side)
-      if (is_open(side) && is_open(sides_.previous(side)) && angle(side) < sharp) return true;
+    for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side) {
+      double sum = 0;
+      sides_.for_fan(side, [&](Index other) { sum += angle(other); });
+      if (sum < sharp) return true;
+    }
     return false;
   }
 
@@ -88,33 +105,63 @@ class Explanation {
     return true;
   }
 
-  /// The element and those that share a node with it, on its side of what is kept.
-  std::set<Index> neighbourhood(Index element) const {
+  /// These elements and those that share a node with them, on their side of what is kept.
+  std::set<Index> neighbours(const std::set<Index>& elements) const {
     std::set<Index> near;
-    for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side)
-      sides_.for_fan(side, [&](Index other) { near.insert(other / 4); });
+    for (Index element : elements)
+      for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side)
+        sides_.for_fan(side, [&](Index other) { near.insert(other / 4); });
     return near;
   }
 
-  /// A kept node is so near to a kept edge which it does not belong to that there is no room for good quads between
-  /// them.
-  bool is_narrow(const std::set<Index>& elements) {
+  struct Kept {
     std::vector<Edge> edges;
     std::set<Index> nodes;
+  };
+
+  Kept kept_of(const std::set<Index>& elements) {
+    Kept kept;
     for (Index e : elements)
       for (Index side = 4 * e; side < 4 * e + sides_.degree(e); ++side) {
-        if (is_fixed(sides_.node(side))) nodes.insert(sides_.node(side));
+        if (is_fixed(sides_.node(side))) kept.nodes.insert(sides_.node(side));
         if (!is_open(side)) continue;
-        edges.push_back({sides_.node(side), sides_.target(side)});
-        nodes.insert({sides_.node(side), sides_.target(side)});
+        kept.edges.push_back({sides_.node(side), sides_.target(side)});
+        kept.nodes.insert({sides_.node(side), sides_.target(side)});
       }
-    for (const auto& [a, b] : edges) {
-      const Vector3d &pa = after_.points[a], &pb = after_.points[b];
-      const double near = kPoorQuad * (pb - pa).norm();
-      for (Index v : nodes)
-        if (v != a && v != b && distance(after_.points[v], pa, pb) < near && !runs_on(edges, v, a, b)) return true;
-    }
-    return false;
+    return kept;
+  }
+
+  /// A kept node is so near to a kept edge which it does not belong to that there is no room for good quads between
+  /// them. Where it faces an end of the edge there is: however thin a ladder is, its rungs may stand upright.
+  bool is_narrow(const std::set<Index>& elements) {
+    const Kept kept = kept_of(elements);
+    return std::any_of(kept.edges.begin(), kept.edges.end(),
+                       [&](const Edge& edge) { return is_near_any(edge, kept.nodes, kept.edges); });
+  }
+
+  /// The same for a kept edge that is longer than several elements, and lies beyond the next ones: so does the quad
+  /// between it and the node.
+  bool is_beside_long_edge(Index quad, const std::set<Index>& near) {
+    const Kept around = kept_of(near), beyond = kept_of(neighbours(near));
+    Vector3d centre = Vector3d::Zero();
+    for (Index v : after_.quads[quad]) centre += 0.25 * after_.points[v];
+    return std::any_of(beyond.edges.begin(), beyond.edges.end(), [&](const Edge& edge) {
+      return distance(centre, after_.points[edge[0]], after_.points[edge[1]]) < reach(edge) &&
+             is_near_any(edge, around.nodes, beyond.edges);
+    });
+  }
+
+  double reach(const Edge& edge) const { return kPoorQuad * (after_.points[edge[1]] - after_.points[edge[0]]).norm(); }
+
+  bool is_near_any(const Edge& edge, const std::set<Index>& nodes, const std::vector<Edge>& edges) const {
+    const auto& [a, b] = edge;
+    const Vector3d &pa = after_.points[a], &pb = after_.points[b];
+    return std::any_of(nodes.begin(), nodes.end(), [&](Index v) {
+      if (v == a || v == b) return false;
+      const Vector3d& p = after_.points[v];
+      const double rung = std::min((p - pa).norm(), (p - pb).norm());
+      return distance(p, pa, pb) < std::min(reach(edge), kPoorQuad * rung) && !runs_on(edges, v, a, b);
+    });
   }
 
   bool is_fixed(Index node) {
@@ -140,8 +187,7 @@ class Explanation {
   }
 
   bool turns_sharply(Index quad, Index element) {
-    if (!is_curved_) is_curved_ = !plane_normal(before_).has_value();
-    if (!*is_curved_) return false;
+    if (!is_curved_) return false;
     if (!result_) result_.emplace(before_, after_);
     Corners<4> p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = after_.points[after_.quads[quad][i]];
@@ -150,9 +196,9 @@ class Explanation {
 
   const Patch& before_;
   const QuadMesh& after_;
+  const bool is_curved_;
   const space::ElementSides sides_;
-  std::vector<char> fixed_;  ///< by row of the patch's points
-  std::optional<bool> is_curved_;
+  std::vector<char> fixed_;              ///< by row of the patch's points
   std::optional<space::Result> result_;  ///< only where it is needed
 };
 
@@ -177,12 +223,12 @@ std::string_view name_of(PoorBecause reason) {
 }
 
 std::vector<PoorQuad> explain_poor_quads(const Patch& before, const QuadMesh& after,
-                                         std::span<const double> scaled_jacobians) {
+                                         std::span<const double> scaled_jacobians, double crease_angle) {
   std::vector<PoorQuad> poor;
   std::optional<Explanation> explanation;
   for (Index q = 0; q < after.quads.size(); ++q) {
     if (!(scaled_jacobians[q] < kPoorQuad)) continue;
-    if (!explanation) explanation.emplace(before, after);
+    if (!explanation) explanation.emplace(before, after, crease_angle);
     Vector3d centre = Vector3d::Zero();
     for (Index v : after.quads[q]) centre += 0.25 * after.points[v];
     poor.push_back({q, scaled_jacobians[q], explanation->reason(q), centre});

@@ -78,7 +78,8 @@ bool untangle(kernel::Mesh& mesh, const std::vector<Index>& nodes, int sweeps) {
   return valid;
 }
 
-/// As below; `star` is scratch space.
+}  // namespace
+
 double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   if (!mesh.is_live_vertex(v) || !mesh.is_free(v)) return 0;
   const double edge = mesh.length(mesh.out(v));
@@ -120,6 +121,8 @@ double relax_node(kernel::Mesh& mesh, Index v, Star& star) {
   return 0;
 }
 
+namespace {
+
 /// Passes over a set of nodes until nothing moves much. Nodes near one that moved stay in the set.
 ///
 /// The nodes are cut into blocks along a Z-curve. Those whose neighbours are all in the same block, or never move, are
@@ -157,6 +160,7 @@ class Passes {
     block_.assign(mesh_.vertex_slots(), kNone);
     for (std::size_t i = 0; i < order.size(); ++i) block_[nodes[order[i]]] = Index(i / kBlock);
     blocks_.resize(order.size() / kBlock + 1);
+    for (auto& block : blocks_) block.reserve(std::min(order.size(), kBlock));
     const std::vector<char> is_between = find_between();
     for (Index i : order) (is_between[nodes[i]] ? between_ : blocks_[block_[nodes[i]]]).push_back(nodes[i]);
   }
@@ -277,6 +281,7 @@ double relax_node(kernel::Mesh& mesh, Index v) {
 
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget) {
   std::vector<Index> nodes;
+  nodes.reserve(mesh.vertex_slots());
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v) && mesh.is_free(v)) nodes.push_back(v);
   if (options.method == SmoothingMethod::thesis)

@@ -10,6 +10,8 @@
 
 namespace qmorph::smoothing {
 
+class Star;
+
 /// Smooths every node that is free. No element that is valid becomes invalid; elements that are not are untangled where
 /// moving nodes can do it. Later passes visit only nodes near one that moved. Cost: linear, plus what the budget allows
 /// for nodes of poor elements, which are optimised one by one, the worst first if the budget does not last for all.
@@ -22,5 +24,7 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
 /// One Newton step of the shape energy at v, shortened until the energy falls. Returns how far v moved,
 /// relative to one of its edges; 0 if v is fixed.
 double relax_node(kernel::Mesh& mesh, Index v);
+/// The same for many nodes; `star` is scratch space.
+double relax_node(kernel::Mesh& mesh, Index v, Star& star);
 
 }  // namespace qmorph::smoothing

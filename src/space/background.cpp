@@ -5,18 +5,11 @@
 #include <utility>
 
 #include "space/link_sides.hpp"
+#include "space/unit.hpp"
 
 namespace qmorph::space {
-namespace {
 
 using Eigen::Vector3d;
-
-Vector3d unit(const Vector3d& v) {
-  const double length = v.norm();
-  return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
-}
-
-}  // namespace
 
 Background::Background(std::span<const Vector3d> points, std::span<const Triangle> triangles,
                        std::span<const Edge> barriers)

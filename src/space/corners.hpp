@@ -64,13 +64,16 @@ template <std::size_t N>
 std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
   constexpr double kClear = 0.5;  // cosine between a corner's cross product and the normals
   const double clear_of_whole = kClear * normals.whole.norm();
+  Corners<N> sides;
+  std::array<double, N> squares;
+  for (std::size_t i = 0; i < N; ++i) sides[i] = p[(i + 1) % N] - p[i], squares[i] = sides[i].squaredNorm();
   double least = 1;
   for (std::size_t i = 0; i < N; ++i) {
-    const Eigen::Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i];
-    const Eigen::Vector3d cross = ahead.cross(behind);
+    const std::size_t before = (i + N - 1) % N;
+    const Eigen::Vector3d cross = sides[before].cross(sides[i]);
     const double area = cross.norm();
     if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area)) return {};
-    least = std::min(least, area / std::sqrt(ahead.squaredNorm() * behind.squaredNorm()));
+    least = std::min(least, area / std::sqrt(squares[i] * squares[before]));
   }
   return least;
 }

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "space/mesh_normals.hpp"
 
+#include "space/unit.hpp"
+
 namespace qmorph::space {
-namespace {
 
 using Eigen::Vector3d;
-
-Vector3d unit(const Vector3d& v) {
-  const double length = v.norm();
-  return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
-}
-
-}  // namespace
 
 MeshNormals::MeshNormals(std::span<const Vector3d> points, const ElementSides& sides) : sides_(sides) {
   const auto corner = [&](Index element, Index i) -> const Vector3d& { return points[sides.node(4 * element + i)]; };

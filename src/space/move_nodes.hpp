@@ -22,8 +22,8 @@ struct Move {
   Eigen::Vector3d to;
 };
 
-/// Moves nodes of the mesh that `result` is of, but those of elements that would be turned over, or get a scaled Jacobian
-/// below 0.3 and clearly less than they had.
+/// Moves nodes of the mesh that `result` is of, but those of elements that would be turned over, or get a scaled
+/// Jacobian below 0.3 and clearly less than they had.
 /// \return the nodes that stay where they are, ascending
 /// Cost: linear.
 QMORPH_API std::vector<Index> move_nodes(const Result& result, std::span<const Move> moves, QuadMesh& mesh);

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 constexpr double kThere = 0.01, kNear = 0.03;
 /// Sines of corners that one edge's distance of a centre is worth.
 constexpr double kShapeCost = 0.2;
+constexpr double kRounding = 1e-9;  ///< of such sums
 
 class Settling {
  public:
@@ -40,9 +41,10 @@ class Settling {
     double cost() const { return distance - kShapeCost * sine; }
   };
 
-  Seat seat_of(Index f, Index hint) const {
+  Seat seat_of(Index f, Index hint) const { return seat_of(f, mesh_.sure_sine(f), hint); }
+  Seat seat_of(Index f, double sine, Index hint) const {
     Seat seat;
-    seat.sine = mesh_.sure_sine(f);
+    seat.sine = sine;
     if (chart::degree(mesh_.mesh().faces[f]) != 4) return seat;
     Vector3d centre = Vector3d::Zero();
     for (Index side = 4 * f; side < 4 * f + 4; ++side) centre += 0.25 * mesh_.point(mesh_.node(side));
@@ -110,11 +112,19 @@ class Settling {
     tried_.clear();
     double after = 0;
     bool good = true;
+    mesh_.for_sides_around(v, [&](Index side) {  // shapes first, which takes less time
+      if (!good) return;
+      Seat& seat = tried_.emplace_back();
+      seat.sine = mesh_.sure_sine(side / 4);
+      good = seat.sine >= least;
+    });
+    auto seat = tried_.begin();
     mesh_.for_sides_around(v, [&](Index side) {
       if (!good) return;
-      tried_.push_back(seat_of(side / 4, seats_[side / 4].under));
-      after += tried_.back().cost();
-      good = tried_.back().sine >= least;
+      *seat = seat_of(side / 4, seat->sine, seats_[side / 4].under);
+      after += seat++->cost();
+      // Others lower the cost by their shapes at most.
+      good = after - kShapeCost * double(tried_.end() - seat) < before + kRounding;
     });
     return good && after < before;
   }

@@ -7,16 +7,12 @@
 #include <tuple>
 
 #include "space/triangle_tree.hpp"
+#include "space/unit.hpp"
 
 namespace qmorph::space {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d unit(const Vector3d& v) {
-  const double length = v.norm();
-  return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
-}
 
 template <std::size_t N>
 Vector3d centre_of(const Corners<N>& p) {

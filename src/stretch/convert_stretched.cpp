@@ -8,6 +8,7 @@
 
 #include "chart/chart.hpp"
 #include "engine/convert_region.hpp"
+#include "engine/grid_pairs.hpp"
 #include "geometry/predicates.hpp"
 #include "quality/directed_size.hpp"
 #include "stretch/flat_lengths.hpp"
@@ -205,6 +206,7 @@ std::optional<Attempt> attempt(const MetricField& field, const Work& work) {
 std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane& plane, const Options& options,
                                               double allowed, ConversionReport& report, Record& record) {
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
+  if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
   const Surface surface(region);
   const MetricField field(surface.background);
   std::optional<chart::Flattening> flattening = unfold(surface.background, field);

@@ -41,6 +41,7 @@ Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v) {
 
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
   std::vector<Index> nodes;
+  nodes.reserve(mesh.degree(f));
   mesh.for_nodes_of(f, [&](Index v) { nodes.push_back(v); });
   return nodes;
 }

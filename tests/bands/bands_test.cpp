@@ -87,7 +87,7 @@ Figures converted(const Patch& patch) {
 
 }  // namespace
 
-TEST_CASE("bands: rows are laid whatever the numbers of nodes, the boundary stays, and all are quads") {
+TEST_CASE("bands: whatever the numbers of nodes, rows of quads alone are laid, and the boundary stays") {
   Rng rng(1);
   for (int trial = 0; trial < 200; ++trial) {
     CAPTURE(trial);
@@ -111,7 +111,7 @@ TEST_CASE("bands: rows are laid whatever the numbers of nodes, the boundary stay
   }
 }
 
-TEST_CASE("bands: a ring whose sides have as many nodes is one row, wherever these are") {
+TEST_CASE("bands: a ring with equally many nodes on both sides becomes one row, wherever the nodes are") {
   for (double turn : {0.0, 0.01, 0.05}) {
     const Figures result = converted(ring(60, 60, 0.8, turn));
     CHECK(result.quads == 60);
@@ -138,7 +138,7 @@ TEST_CASE("bands: rings and strips with different numbers of nodes have no poor 
   CHECK(mean > 0.908);
 }
 
-TEST_CASE("bands: what is thick, has five corners, a fixed node inside or an odd boundary is no band") {
+TEST_CASE("bands: a region that is thick, or has five corners, a fixed node inside or an odd boundary, is no band") {
   const auto finds = [](const Patch& patch) {
     const Region region = region_of(patch);
     const auto band = bands::find_band(region);

@@ -62,7 +62,7 @@ TEST_CASE("creases: the edges of a box, and no others") {
   CHECK(creases(patch, 180).empty());
 }
 
-TEST_CASE("creases: a fold between planes is one, up to where the angle says") {
+TEST_CASE("creases: a fold between planes is one if it is sharper than the angle") {
   CHECK(creases(folded({0, 0, 45, 0, 0})).size() == 6);
   CHECK(creases(folded({0, 0, 39, 0, 0})).empty());
   CHECK(creases(folded({0, 0, 39, 0, 0}), 30).size() == 6);
@@ -71,7 +71,7 @@ TEST_CASE("creases: a fold between planes is one, up to where the angle says") {
   CHECK(creases(folded({0, 50, 0, -50, 0})).size() == 12);
 }
 
-TEST_CASE("creases: the sides of a coarse bend are none") {
+TEST_CASE("creases: the edges of a coarsely meshed bend are none") {
   CHECK(creases(folded({45, 45, 45, 45, 45, 45})).empty());
   CHECK(creases(folded({0, 22.5, 45, 22.5, 0})).empty());
   Rng rng(2);

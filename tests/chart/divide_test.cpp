@@ -49,7 +49,7 @@ TEST_CASE("divide: each part is flat, each face is in one, and cuts have two sid
   }
 }
 
-TEST_CASE("divide: large parts that are judged at a glance lie flat when they are laid out") {
+TEST_CASE("divide: large parts that were judged from a sample lie flat when they are laid out") {
   Rng rng(8);
   std::size_t glances = 0;
   for (const Patch& patch : {sphere(0.035, rng), torus(1, 0.4, 0.03, rng), rolled(plate(60, 40), 0, rng)}) {
@@ -67,7 +67,7 @@ TEST_CASE("divide: large parts that are judged at a glance lie flat when they ar
   CHECK(glances > 3);
 }
 
-TEST_CASE("divide: what lies flat is not cut, whatever it looks like in space") {
+TEST_CASE("divide: what can lie flat is not cut, however it is bent in space") {
   Rng rng(7);
   CHECK(divided(Start(rolled(plate(30, 10), 0, rng))).parts.size() == 1);
   CHECK(divided(Start(rolled(plate(30, 10), 0.5, rng))).parts.size() == 1);

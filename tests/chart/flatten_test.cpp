@@ -50,7 +50,7 @@ Patch cap(double angle) {  // of a sphere, as far from the pole
 
 }  // namespace
 
-TEST_CASE("flatten: what was rolled up is unrolled") {
+TEST_CASE("flatten: surfaces that were rolled up are unrolled") {
   const Patch plane = plate(40, 12);
   SUBCASE("a cylinder, all but closed") {
     const double radius = 40 / (2 * std::numbers::pi) * 1.02;
@@ -94,7 +94,7 @@ TEST_CASE("flatten: the more a surface is curved, the more it is distorted, and 
   CHECK(before > 1.3);
 }
 
-TEST_CASE("flatten: holes are no hindrance, as long as what is around them lies flat") {
+TEST_CASE("flatten: holes do no harm, as long as what surrounds them can lie flat") {
   Patch patch = plate(20, 20);
   patch = pierced(patch, {10, 10, 0}, 4);
   const Patch bent = mapped(patch, [](double x, double y) { return Vector3d(x, y, std::sin(x / 4)); });
@@ -109,7 +109,7 @@ TEST_CASE("flatten: a tube that is closed cannot lie flat, and that shows") {
   CHECK((chart.flipped > 0 || chart.distortion > 1.5));
 }
 
-TEST_CASE("flatten: triangles without area are no numbers that are none") {
+TEST_CASE("flatten: triangles without area cause no NaN") {
   Patch patch = plate(6, 6);
   patch.points[24] = patch.points[25];                             // two nodes at one place
   patch.points[16] = 0.5 * (patch.points[15] + patch.points[17]);  // three in a row

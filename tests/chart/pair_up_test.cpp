@@ -54,7 +54,7 @@ TEST_CASE("pair up: closed surfaces become quads without a chart of the whole") 
   }
 }
 
-TEST_CASE("pair up: one triangle is left of an odd number, and no pair crosses a wall") {
+TEST_CASE("pair up: of an odd number one triangle is left, and no pair crosses a wall") {
   Rng rng(32);
   for (int k = 0; k < 4; ++k) {
     const Patch patch = pierced(sphere(0.2, rng), {0, 0, 1}, 0.3 + 0.1 * k);
@@ -95,7 +95,7 @@ TEST_CASE("refine: every edge inside has a node in its middle, the boundary and 
   }
 }
 
-TEST_CASE("flatten: pieces that do not touch are laid flat each by itself") {
+TEST_CASE("flatten: pieces that do not touch are laid flat one by one") {
   Patch patch = plate(3, 2);
   const Patch other = plate(2, 2);
   for (const Eigen::Vector3d& p : other.points) patch.points.emplace_back(p.x(), 10 - p.z(), p.y());

@@ -10,7 +10,7 @@ using namespace qmorph;
 using namespace qmorph::test;
 using namespace qmorph::chart;
 
-TEST_CASE("topology: loops and Euler's characteristic of surfaces that everybody knows") {
+TEST_CASE("topology: loops and Euler characteristic of well-known surfaces") {
   Rng rng(3);
   struct Case {
     const char* name;
@@ -53,7 +53,7 @@ TEST_CASE("topology: what is cut apart falls into components") {
   CHECK(components(start.all(), start.opposite, cut).size() == 16);
 }
 
-TEST_CASE("topology: the defects of all angles are 2 pi for each handle less") {
+TEST_CASE("topology: angle defects sum up to 2 pi times the Euler characteristic") {
   Rng rng(4);
   for (const auto& [patch, euler] : {std::pair(sphere(0.3, rng), 2), std::pair(torus(1, 0.3, 0.2, rng), 0),
                                      std::pair(double_torus(0.2, rng), -2), std::pair(plate(3, 3), 1)}) {

@@ -45,7 +45,7 @@ void check_is_complete(const BandPlan& plan, std::size_t lower, std::size_t uppe
 
 }  // namespace
 
-TEST_CASE("band plan: between straight rails face to face there are single rungs only, at no cost") {
+TEST_CASE("band plan: straight rails that face each other have single rungs only, at no cost") {
   const BandPlan plan = plan_band(rail(9, 0, 0), rail(9, 0, 1), kSpareLag);
   check_is_complete(plan, 9, 9);
   CHECK(plan.places.size() == 9);

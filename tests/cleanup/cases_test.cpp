@@ -118,7 +118,7 @@ TEST_CASE("cases: connectivity patterns and what they become") {
   CHECK(std::size(kRows) == connectivity_cases().size());
 }
 
-TEST_CASE("cases: a valence that does not fit, a corner that is none, or a node on the boundary is no match") {
+TEST_CASE("cases: a valence that does not fit, a missing corner, or a node on the boundary is no match") {
   const auto is_match = [](const Mesh& mesh, std::string_view name) {
     Ring ring;
     return read_ring(mesh, GlossaryValence(mesh), 0, ring) && find_match(mesh, Pattern(find_case(name)), ring) >= 0;

@@ -86,7 +86,7 @@ TEST_CASE("cavity: it grows to the boundary and no further") {
   CHECK(cavity.faces().size() == 16);
 }
 
-TEST_CASE("cavity: it does not grow over the most quads that are asked for") {
+TEST_CASE("cavity: it does not grow beyond the number of quads that is allowed") {
   const Mesh mesh = quad_grid(8, 8);
   Cavity cavity(mesh);
   REQUIRE(cavity.start(kMiddle));
@@ -113,7 +113,7 @@ TEST_CASE("cavity: where it cannot grow it stays as it is, and can grow elsewher
   CHECK(cavity.inner_nodes() == std::vector<Index>{kMiddle, kMiddle - 1});
 }
 
-TEST_CASE("cavity: to a node further off it grows with all between them") {
+TEST_CASE("cavity: it grows to a node farther away with all that lies between them") {
   const Mesh mesh = quad_grid(12, 12);
   const auto node = [](Index x, Index y) { return 13 * y + x; };
   Cavity cavity(mesh);

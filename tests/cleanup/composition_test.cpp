@@ -63,7 +63,7 @@ TEST_CASE("composition: fill_3 and fill_4") {
   check(after(two_quads(), "6", false), {{0, 4, 5, 6}, {0, 6, 7, 3}, {1, 2, 3, 7}, {1, 7, 6, 5}}, 0, 6, {0, 4, 5, 6});
 }
 
-TEST_CASE("composition: the edge moves on clockwise, counter-clockwise, and the other way in a mirror") {
+TEST_CASE("composition: the edge moves on clockwise or counter-clockwise, and the other way in a mirror image") {
   const Polygons clockwise = {{0, 4, 5, 3}, {1, 2, 3, 5}}, counter = {{0, 4, 2, 3}, {1, 2, 4, 5}};
   check(after(two_quads(), "8", true), clockwise, 3, 5, {1, 2, 3, 5});
   check(after(two_quads(), "8", false), clockwise, 3, 5, {0, 4, 5, 3});

@@ -52,7 +52,7 @@ TEST_CASE("filling: four corners need opposite sides of the same length") {
   CHECK_FALSE(between_sides({2, 2, 3, 3}));
 }
 
-TEST_CASE("filling: there is none if a spoke would be half an edge long, or none, or less") {
+TEST_CASE("filling: there is none if a spoke would have half an edge, no edge, or a negative number") {
   CHECK_FALSE(between_sides({2, 2, 3}));        // an odd ring
   CHECK_FALSE(between_sides({2, 2, 4}));        // one spoke of length 0
   CHECK_FALSE(between_sides({1, 1, 4}));        // negative
@@ -97,7 +97,7 @@ TEST_CASE("filling: a square becomes the even grid") {
     if (mesh.is_live_face(f)) CHECK(mesh.smallest_sine(f) == doctest::Approx(1));
 }
 
-TEST_CASE("filling: two cells get the strip the other way round") {
+TEST_CASE("filling: two cells become the strip in the other direction") {
   Mesh mesh = quad_grid(4, 4);
   const std::vector<Index> outline = {11, 12, 13, 18, 17, 16};
   const std::vector<Index> faces = {mesh.face(edge(mesh, 11, 12)), mesh.face(edge(mesh, 12, 13))};

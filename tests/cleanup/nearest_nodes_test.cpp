@@ -42,7 +42,7 @@ TEST_CASE("nearest nodes: each node of a grid comes once, and none before one th
   }
 }
 
-TEST_CASE("nearest nodes: ways lead through free nodes") {
+TEST_CASE("nearest nodes: paths lead through free nodes") {
   Mesh mesh = quad_grid(8, 8);
   for (Index y = 0; y < 8; ++y) mesh.set_fixed(9 * y + 5);
   NearestNodes nearest(mesh);

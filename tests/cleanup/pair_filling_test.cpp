@@ -86,7 +86,7 @@ TEST_CASE("pair filling: there is none where a grid fits, and none where the sid
   CHECK_FALSE(fill_square({20, 3, 2, 3}, Vec2::Zero(), 30).choice);
 }
 
-TEST_CASE("pair filling: the number of quads stays near to what is wanted, or there is none") {
+TEST_CASE("pair filling: the number of quads is close to what is asked for, or there is no filling") {
   for (double wanted : {60.0, 80.0, 100.0}) {
     const cleanup::FillingSize close{0.9, 1.1};
     const auto [mesh, choice] = fill_square({10, 9, 8, 7}, Vec2::Zero(), wanted, close);
@@ -95,7 +95,7 @@ TEST_CASE("pair filling: the number of quads stays near to what is wanted, or th
   CHECK_FALSE(fill_square({10, 9, 8, 7}, Vec2::Zero(), 500).choice);
 }
 
-TEST_CASE("pair filling: the pair is where it is wished, as far as sizes allow") {
+TEST_CASE("pair filling: the pair lies where it is asked for, as far as sizes allow") {
   for (const Vec2& place : {Vec2(0.4, 0), Vec2(-0.4, 0), Vec2(0, 0.4), Vec2(0, -0.4)}) {
     const auto [mesh, choice] = fill_square({20, 20, 18, 20}, place, 380);
     REQUIRE(choice);

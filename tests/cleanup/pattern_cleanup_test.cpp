@@ -81,7 +81,7 @@ TEST_CASE("chevron: the limit is an option, and without a chevron nothing is tou
 //   6----5----7
 //   |   / \   |
 //   0--1-2-3--4
-TEST_CASE("boundary: a triangularly shaped quad becomes a row") {
+TEST_CASE("boundary: a quad shaped like a triangle becomes a row") {
   const Mesh mesh = drawn({{-2, 0}, {-1, 0}, {0, 0}, {1, 0}, {2, 0}, {0, 1}, {-2, 1}, {2, 1}, {2, 2}, {0, 2}, {-2, 2}},
                           {{2, 3, 5, 1}, {0, 1, 5, 6}, {3, 4, 7, 5}, {6, 5, 9, 10}, {5, 7, 8, 9}});
   REQUIRE(worst_sine(mesh) == 0);
@@ -122,7 +122,7 @@ TEST_CASE("boundary: a diamond closes, and a grid is left") {
   CHECK(worst_sine(mesh) > 0.9);
 }
 
-TEST_CASE("connectivity: a pattern is resolved where the quads can take shape, in both hands") {
+TEST_CASE("connectivity: a pattern is resolved where the quads can take shape, and so is its mirror image") {
   Mesh mesh = surrounded({3, 4, 4, 3, 4, 4, 4, 4, 4, 4});  // normal 1
   smoothing::smooth(mesh, {});
   REQUIRE(defect(mesh) == "");

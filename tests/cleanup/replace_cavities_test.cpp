@@ -92,7 +92,7 @@ TEST_CASE("replace cavities: pairs that are far from each other meet") {
   check_that_all_vanish(with_fixed_node(mesh));
 }
 
-TEST_CASE("replace cavities: what no cavity inside can mend goes if the whole region has a filling") {
+TEST_CASE("replace cavities: what no cavity inside can mend is mended if the whole region has a filling") {
   Mesh cavities_only = with_fixed_node(grid_with_star());
   replace_cavities(cavities_only, {});
   CHECK(irregular_nodes(cavities_only) < irregular_nodes(grid_with_star()));
@@ -133,7 +133,7 @@ TEST_CASE("replace cavities: a fixed node stays where it is, even if it is irreg
   CHECK(defect(mesh) == "");
 }
 
-TEST_CASE("replace cavities: twice the same mesh gives twice the same result") {
+TEST_CASE("replace cavities: the same mesh gives the same result twice") {
   Mesh a = grid_with_star(), b = grid_with_star();
   replace_cavities(a, {});
   replace_cavities(b, {});

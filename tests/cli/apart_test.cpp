@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Whatever ends the program, nothing is left of it, and somebody says why.
+/// Whatever ends the program, it leaves nothing behind, and a message says why.
 
 #include "cli/apart.hpp"
 
@@ -126,7 +126,7 @@ TEST_CASE("apart: no signal that ends the program leaves a file") {
   CHECK(ended > 0);
 }
 
-TEST_CASE("apart: one process ends with the other, whatever it is at") {
+TEST_CASE("apart: one process ends with the other, whatever it is doing") {
   Place place;
   write_file(place.directory / "in.geo", kSquare + "SystemCall \"kill -TERM $PPID\";\n");
   const int ended = place.shell("exec \"$qmorph\" in.geo");
@@ -139,14 +139,14 @@ TEST_CASE("apart: one process ends with the other, whatever it is at") {
   CHECK(place.files() == std::vector<std::string>{"in.geo"});
 }
 
-TEST_CASE("apart: who is to ignore a signal ignores it") {
+TEST_CASE("apart: a signal that is to be ignored is ignored") {
   Place place;
   write_file(place.directory / "in.geo", kSquare + "SystemCall \"sleep 0.3\";\n");
   CHECK(WEXITSTATUS(place.shell("trap '' HUP; \"$qmorph\" in.geo -v 0 & sleep 0.1; kill -HUP $!; wait $!")) == 0);
   CHECK(place.files() == std::vector<std::string>{"in.geo", "in.msh"});
 }
 
-TEST_CASE("apart: temporary names are nobody else's, and as long as the file's may be") {
+TEST_CASE("apart: temporary names are unique, and file names may be as long as the system allows") {
   Place place;
   const std::string target = place.directory / "out.msh";
   adapter::TemporaryNames names;
@@ -167,7 +167,7 @@ TEST_CASE("apart: temporary names are nobody else's, and as long as the file's m
   CHECK(mentions(place.said, "File name too long\n"));
 }
 
-TEST_CASE("apart: what libraries say is one line less where it fails, and told where it does not") {
+TEST_CASE("apart: output of libraries is dropped where the run fails, and shown where it does not") {
   Place place;
   write_file(place.directory / "in.step", "ISO-10303-21;\nQUID;\n");
   CHECK(place.status_of("in.step") == 2);
@@ -180,7 +180,7 @@ TEST_CASE("apart: what libraries say is one line less where it fails, and told w
   CHECK(!mentions(place.said, "out\nerr\n"));
 }
 
-TEST_CASE("apart: what does not end is refused") {
+TEST_CASE("apart: input that does not end is refused") {
   Place place;
   ::mkfifo((place.directory / "pipe.msh").c_str(), 0600);
   for (const std::string input : {"/dev/zero", "pipe.msh"}) {
@@ -198,7 +198,7 @@ TEST_CASE("apart: what does not end is refused") {
   CHECK(place.files() == std::vector<std::string>{"pipe.msh"});
 }
 
-TEST_CASE("apart: messages call standard input and output so") {
+TEST_CASE("apart: messages call standard input and output by these names") {
   Place place;
   for (const std::string text : {"Point(1) = {0;\n", "$MeshFormat\n9.9 0 8\n$EndMeshFormat\n", "ISO-10303-21;\nQUID;\n",
                                  "Point(1) = {0, 0, 0};\n"}) {

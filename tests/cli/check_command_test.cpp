@@ -48,7 +48,7 @@ TEST_CASE("check: a line for each reason, and status 6") {
   CHECK(mentions(strict.err, "qmorph: surface 1: 1 triangle, and none is allowed\n"));
 }
 
-TEST_CASE("check: a surface that three elements share an edge of is no good mesh") {
+TEST_CASE("check: a surface where three elements share an edge is not a good mesh") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
                                          {"2 2 0 1 1 2 3", "2 2 0 1 1 2 4", "2 2 0 1 1 2 5"}));
@@ -57,7 +57,7 @@ TEST_CASE("check: a surface that three elements share an edge of is no good mesh
   CHECK(mentions(result.err, "surface 1: it is not a manifold"));
 }
 
-TEST_CASE("check: files that are none") {
+TEST_CASE("check: files that are not meshes") {
   const TemporaryDirectory directory;
   CHECK(run_qmorph({"--check", directory / "none.msh"}).status == 2);
   write_file(directory / "in.geo", "Point(1) = {0, 0, 0, 1};\n");
@@ -65,7 +65,7 @@ TEST_CASE("check: files that are none") {
   CHECK(run_qmorph({directory / "in.geo", "--min-sj", "0.2"}).status == 1);
 }
 
-TEST_CASE("check: what asks for a file is refused, since it writes none") {
+TEST_CASE("check: options that ask for a file are refused, since it writes none") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
   for (const char* option : {"-o", "--stats", "--svg"}) {

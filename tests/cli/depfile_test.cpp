@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// --depfile: what make has to look at.
+/// --depfile: what make has to watch.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -93,7 +93,7 @@ TEST_CASE("depfile: make builds again when an included file is newer, and not ot
   CHECK(make() == 0);  // a file that is gone, and that nobody includes any more
 }
 
-TEST_CASE("depfile: names with blanks and signs that make knows") {
+TEST_CASE("depfile: names with blanks and characters that are special to make") {
   CHECK(adapter::make_rule("a b.msh", {"x#1.geo", "c:d$e.geo"}) ==
         "a\\ b.msh: \\\n  x\\#1.geo \\\n  c\\:d$$e.geo\n\nc\\:d$$e.geo:\n");
   const TemporaryDirectory directory;

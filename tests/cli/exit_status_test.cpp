@@ -65,7 +65,7 @@ TEST_CASE("status 1: usage, before anything is opened") {
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--surfaces", "9"}), 1, "the model has no surface 9");
 }
 
-TEST_CASE("status 1: figures where the mesh is, by whatever name") {
+TEST_CASE("status 1: figures in the place of the mesh, by whatever name") {
   Scene scene("in.geo", kSquare);
   const std::string detour = scene.directory / "./in.geo";
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", scene.output}), 1, "is the output");
@@ -74,7 +74,7 @@ TEST_CASE("status 1: figures where the mesh is, by whatever name") {
   scene.expect(run_qmorph({scene.input, "--stats", scene.directory / "./in.msh"}), 1, "is the output");
 }
 
-TEST_CASE("status 2: inputs that are none") {
+TEST_CASE("status 2: inputs that cannot be read") {
   const struct {
     const char *name, *text, *message;
   } kCases[] = {
@@ -103,7 +103,7 @@ TEST_CASE("status 2: inputs that are none") {
   }
 }
 
-TEST_CASE("status 2: a mesh that ends too soon, wherever it ends") {
+TEST_CASE("status 2: a truncated mesh, wherever it ends") {
   const std::string text = grid_text();
   const std::size_t nodes_end = text.find("$EndNodes");
   for (std::size_t length = 60; length < text.rfind("$EndElements") + 4; length += 7) {
@@ -114,7 +114,7 @@ TEST_CASE("status 2: a mesh that ends too soon, wherever it ends") {
   }
 }
 
-TEST_CASE("status 2: a mesh that contradicts itself, of which Gmsh would take a part") {
+TEST_CASE("status 2: a mesh that contradicts itself, of which Gmsh would read a part") {
   const std::string whole = grid_text();
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = whole;
@@ -160,7 +160,7 @@ TEST_CASE("status 4: no surfaces") {
   scene.expect(run_qmorph({scene.input, "-o", scene.output}), 4, "nothing to convert");
 }
 
-TEST_CASE("status 5: places and formats that cannot be") {
+TEST_CASE("status 5: impossible places and formats") {
   Scene scene("in.geo", kSquare);
   scene.expect(run_qmorph({scene.input, "-o", "/no/such/directory/out.msh"}), 5,
                "there is no directory /no/such/directory");
@@ -173,7 +173,7 @@ TEST_CASE("status 5: places and formats that cannot be") {
                "cannot write /no/such/directory/s.json");
 }
 
-TEST_CASE("status 5: a format that this Gmsh has not is said before anything is opened") {
+TEST_CASE("status 5: a format that this Gmsh lacks is reported before anything is opened") {
   Scene scene("in.geo", "Error(\"opened\");\n");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "-format", "med"}), 5, "this Gmsh has no format med");
 }
@@ -189,7 +189,7 @@ TEST_CASE("status 5: links that lead back to themselves") {
   CHECK(std::filesystem::is_symlink(directory / "a.msh"));
 }
 
-TEST_CASE("a link to a file that is not there yet makes the file") {
+TEST_CASE("a link to a file that does not exist yet creates the file") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kSquare);
   std::filesystem::create_symlink("real.msh", directory / "link.msh");

@@ -64,7 +64,7 @@ TEST_CASE("gmsh options: lines of Makefiles work") {
   }
 }
 
-TEST_CASE("gmsh options: the library knows each that is passed on") {
+TEST_CASE("gmsh options: the library knows every option that is passed on") {
   // It ends the process on others, which would be seen.
   std::istringstream names(cli::passed_gmsh_options());
   Words arguments;
@@ -85,7 +85,7 @@ TEST_CASE("gmsh options: the library knows each that is passed on") {
   CHECK(adapter::get_option("Mesh.SaveAll") == 1);
 }
 
-TEST_CASE("gmsh options: texts and option files set sizes, also a file beside the input") {
+TEST_CASE("gmsh options: strings and option files set sizes, and so does a file beside the input") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kSquare);
   write_file(directory / "fine.opt", "Mesh.MeshSizeMax = 0.05;\n");
@@ -174,7 +174,7 @@ TEST_CASE("gmsh options: - is the standard output, with nothing else on it") {
   CHECK(directory.files() == std::vector<std::string>{"in.geo"});
 }
 
-TEST_CASE("gmsh options: with - there is no place for a file of views beside the mesh") {
+TEST_CASE("gmsh options: with - there can be no file of views beside the mesh") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kSquare);
   const Result refused = run_qmorph({directory / "in.geo", "-o", "-", "-format", "vtk", "--views"});

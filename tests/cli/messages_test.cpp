@@ -46,7 +46,7 @@ TEST_CASE("messages: a concave quad of the input names --cleanup-only") {
   CHECK(mentions(result.err, "is inverted or not convex at (0.5, 0.5, 0); --cleanup-only"));
 }
 
-TEST_CASE("messages: quads that are left as they were are quads in the sum") {
+TEST_CASE("messages: quads that are left as they were count as quads in the total") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", kConcave);
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
@@ -78,7 +78,7 @@ TEST_CASE("messages: quads whose order changes are not as they were") {
   CHECK(!mentions(result.err, "as it was"));
 }
 
-TEST_CASE("messages: what Gmsh says again and again is told once") {
+TEST_CASE("messages: what Gmsh says again and again is reported once") {
   qmorph::adapter::StageLog log;
   log.errors = {"no convergence", "no convergence", "a hole", "no convergence", "a leak"};
   CHECK(qmorph::adapter::first_errors(log) == "no convergence; a hole; a leak");
@@ -86,7 +86,7 @@ TEST_CASE("messages: what Gmsh says again and again is told once") {
   CHECK(qmorph::adapter::first_errors(log) == "no convergence; a hole; a leak (and 2 more)");
 }
 
-TEST_CASE("messages: a format that Gmsh was built without, in words that are the same each time") {
+TEST_CASE("messages: a format that Gmsh was built without, in the same words each time") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", kPentagon);
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.med"});

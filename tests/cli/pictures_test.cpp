@@ -53,7 +53,7 @@ ReadViews read_views(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("pictures: all formats in one call, of the mesh in the end") {
+TEST_CASE("pictures: all formats in one call, of the final mesh") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
   REQUIRE(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--svg", directory / "a.svg", "--pdf",
@@ -67,7 +67,7 @@ TEST_CASE("pictures: all formats in one call, of the mesh in the end") {
   CHECK(read_file(directory / "a.pdf").rfind("%PDF", 0) == 0);
 }
 
-TEST_CASE("pictures: a stage is as it was then") {
+TEST_CASE("pictures: a stage is shown as it was") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
   const auto picture = [&](const std::string& stage) {
@@ -84,7 +84,7 @@ TEST_CASE("pictures: a stage is as it was then") {
   CHECK(picture("final") != input);
 }
 
-TEST_CASE("pictures: in space from anywhere, and what is flat as ever") {
+TEST_CASE("pictures: surfaces in space from any viewpoint, and flat ones as before") {
   const TemporaryDirectory directory;
   make_msh(directory / "box.msh", 4.1, false, [] {
     ::gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
@@ -114,7 +114,7 @@ TEST_CASE("pictures: in space from anywhere, and what is flat as ever") {
   CHECK(picture("flat.msh", {"--from", "x"}) != picture("flat.msh", {}));
 }
 
-TEST_CASE("pictures: names that there are not, and words without a picture, are refused before anything is read") {
+TEST_CASE("pictures: unknown names, and options of pictures without a picture, are refused before anything is read") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
   const std::string in = directory / "in.msh", out = directory / "out.msh", svg = directory / "a.svg";
@@ -129,7 +129,7 @@ TEST_CASE("pictures: names that there are not, and words without a picture, are 
   CHECK(directory.files() == std::vector<std::string>{"in.msh"});
 }
 
-TEST_CASE("views: Gmsh reads the figures of every element out of the mesh, text or binary, old or new") {
+TEST_CASE("views: Gmsh reads the figures of every element from the mesh, text or binary, old or new") {
   for (double version : {4.1, 2.2})
     for (bool binary : {false, true}) {
       CAPTURE(version);

@@ -54,7 +54,7 @@ class TinyDisk {
 
 }  // namespace
 
-TEST_CASE("process: what OpenCASCADE says does not go to stdout") {
+TEST_CASE("process: what OpenCASCADE prints does not go to stdout") {
   const TemporaryDirectory directory;
   write_file(directory / "in.step", "ISO-10303-21;\nQUID;\n");
   CHECK(call(directory, fmt::format("'{}' -o '{}'", directory / "in.step", directory / "out.msh")) == 2);
@@ -114,7 +114,7 @@ TEST_CASE("process: figures that cannot be written leave the earlier mesh") {
   CHECK(read_file(out) == "earlier");
 }
 
-TEST_CASE("process: a script that says Exit is not a success") {
+TEST_CASE("process: a script that calls Exit is a failure") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", std::string(kSquare) + "Exit;\n");
   CHECK(call(directory, fmt::format("'{}'", directory / "in.geo")) == 2);
@@ -122,7 +122,7 @@ TEST_CASE("process: a script that says Exit is not a success") {
   CHECK(directory.files() == std::vector<std::string>{"in.geo", "stderr", "stdout"});
 }
 
-TEST_CASE("process: options that Gmsh cannot take are no success, and leave nothing in the user's directory") {
+TEST_CASE("process: options that Gmsh rejects are a failure, and leave nothing in the user's directory") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n");
   write_file(directory / "bad.opt", "garbage ((\n");
@@ -154,7 +154,7 @@ TEST_CASE("process: options that Gmsh cannot take are no success, and leave noth
   CHECK(run("-string 'Mesh.MeshSizeMax = 0.2;'").first == 0);
 }
 
-TEST_CASE("process: a full disk is said, and the earlier file is as it was") {
+TEST_CASE("process: a full disk is reported, and the earlier file is as it was") {
   const TemporaryDirectory directory;
   const TinyDisk disk(directory / "disk");
   if (!disk.mounted()) {
@@ -182,7 +182,7 @@ TEST_CASE("process: a full disk is said, and the earlier file is as it was") {
     }
 }
 
-TEST_CASE("process: an answer that the standard output does not take is a failure in one line") {
+TEST_CASE("process: an answer that cannot be written to standard output is a failure, with one line") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kSquare);
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
@@ -201,7 +201,7 @@ TEST_CASE("process: an answer that the standard output does not take is a failur
     }
 }
 
-TEST_CASE("process: a reader that goes away leaves no temporary file, and no name of one is told") {
+TEST_CASE("process: if the reader of a pipe goes away, no temporary file is left, and no message names one") {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "tmp");
   write_file(directory / "in.geo", kFineSquare);

@@ -7,13 +7,13 @@
 
 using namespace qmorph::cli;
 
-TEST_CASE("progress: the line has a bar, the share, the stage and the time that is left at this pace") {
+TEST_CASE("progress: the line has a bar, the share, the stage and the time left at this pace") {
   CHECK(progress_line("front", 0.25, 3) == "  [#####               ]  25 %  front, 9 s left");
   CHECK(progress_line("smoothing", 1, 3) == "  [####################] 100 %  smoothing, 0 s left");
   CHECK(progress_line("cleanup", 0.999, 100) == "  [################### ]  99 %  cleanup, 1 s left");
 }
 
-TEST_CASE("progress: nothing is foretold from next to nothing, and shares out of range do no harm") {
+TEST_CASE("progress: no time is predicted from next to nothing, and shares out of range do no harm") {
   CHECK(progress_line("front", 0.001, 1) == "  [                    ]   0 %  front");
   CHECK(progress_line("front", -1, 1) == "  [                    ]   0 %  front");
   CHECK(progress_line("front", 7, 1) == "  [####################] 100 %  front, 0 s left");

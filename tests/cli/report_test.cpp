@@ -75,7 +75,7 @@ TEST_CASE("film: one page with the steps of every region; none for a mesh withou
         1);
 }
 
-TEST_CASE("report: it does not take another file's place") {
+TEST_CASE("report: it does not overwrite another file") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_two_squares);
   const std::string in = directory / "in.msh", out = directory / "out.msh", page = directory / "p.html";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The words of the command line.
+/// What the words of the command line mean.
 
 #include "cli/request/request.hpp"
 
@@ -32,7 +32,7 @@ TEST_CASE("request: Gmsh's spelling and the usual one") {
   }
 }
 
-TEST_CASE("request: what is Gmsh's is passed on in its order") {
+TEST_CASE("request: options of Gmsh are passed on in their order") {
   const Request request = parse({"-clmax", "0.1", "in.geo", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring",
                                  "name", "-o", "-algo", "del2d", "-setnumber", "Mesh.MshFileVersion", "2.2"});
   CHECK(request.gmsh_arguments == Words{"-clmax", "0.1", "-setnumber", "depth", "-3", "-clmin", "1e-3", "-setstring",
@@ -108,7 +108,7 @@ TEST_CASE("request: --help and --version need nothing else") {
   CHECK(parse({"--version"}).version);
 }
 
-TEST_CASE("request: what makes no sense is named") {
+TEST_CASE("request: arguments that make no sense are named") {
   const struct {
     Words words;
     const char* message;
@@ -201,7 +201,7 @@ TEST_CASE("request: the help names every option and every exit status") {
     CHECK(help.find(word) != std::string::npos);
 }
 
-TEST_CASE("request: counts are whole numbers") {
+TEST_CASE("request: counts must be whole numbers") {
   for (const std::string option : {"-nt", "-part", "-v"})
     for (const char* value : {"-3", "abc", "2.5", "99999999999"}) {
       CAPTURE(value);
@@ -211,7 +211,7 @@ TEST_CASE("request: counts are whole numbers") {
   CHECK(parse({"in.msh", "-nt", "0"}).threads == 0);
 }
 
-TEST_CASE("request: numbers are read whole, in any usual spelling") {
+TEST_CASE("request: numbers are read to their end, in any usual spelling") {
   CHECK(parse({"a.msh", "--check", "--min-sj", "+.5"}).thresholds.min_scaled_jacobian == 0.5);
   CHECK(parse({"a.msh", "--check", "--min-sj", "-5e-1"}).thresholds.min_scaled_jacobian == -0.5);
   CHECK(parse({"a.geo", "-nt", "+04"}).threads == 4);
@@ -225,7 +225,7 @@ TEST_CASE("request: flags may be repeated, lists grow") {
         std::vector<int>{3, 4, 7});
 }
 
-TEST_CASE("request: the window needs no file, and has a panel for what is to be done") {
+TEST_CASE("request: the window needs no file, and leaves what is to be done to its panel") {
   CHECK(parse({"--gui"}).gui);
   CHECK(parse({"--gui"}).input.empty());
   const Request request = parse({"in.geo", "--gui", "--crease", "30", "-clmax", "0.1", "-o", "out.msh"});

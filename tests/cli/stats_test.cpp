@@ -65,7 +65,7 @@ TEST_CASE("stats: a table of the stages, for each surface and in total") {
   CHECK(stages[0]["triangles"] == triangles);
 }
 
-TEST_CASE("stats: a surface that was left says why") {
+TEST_CASE("stats: a surface that was left says why it was") {
   const TemporaryDirectory directory;
   std::vector<std::string> elements = {"2 2 0 1 1 2 3", "2 2 0 1 1 2 4", "2 2 0 1 1 2 3"};
   write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, elements));

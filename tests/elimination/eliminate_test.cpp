@@ -88,7 +88,7 @@ TEST_CASE("elimination: a single triangle stays where the boundary is odd") {
   check_elimination(drawn({{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}), 1);
 }
 
-TEST_CASE("elimination: neighbours become a quad, the best pairs first") {
+TEST_CASE("elimination: neighbours become quads, the best pairs first") {
   Mesh mesh = grid(6, 5, Diagonals::rising);
   CHECK(eliminate_triangles(mesh, {}) == 0);
   CHECK(faces_of(mesh) == faces_of(quad_grid(6, 5)));

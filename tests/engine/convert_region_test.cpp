@@ -67,7 +67,7 @@ bool is_same(const QuadMesh& a, const QuadMesh& b) {
 
 }  // namespace
 
-TEST_CASE("convert region: with tries of other constants a small region is never worse, sometimes better") {
+TEST_CASE("convert region: trying other constants never makes a small region worse, and sometimes better") {
   const std::size_t tries = Options{}.retry_triangles;
   int better = 0;
   const auto patches = small_regions(300, 25);
@@ -101,7 +101,7 @@ TEST_CASE(
   CHECK(fine > 2);
 }
 
-TEST_CASE("convert region: a region with more than twice the triangles that tries may take gets one only") {
+TEST_CASE("convert region: a region of more than twice the triangles that tries may use gets only one") {
   for (const Patch& patch : small_regions(300, 8)) {
     const std::size_t too_few = (patch.triangles.size() - 1) / 2;
     CHECK(is_same(convert_with(patch, too_few), convert_with(patch, 0)));

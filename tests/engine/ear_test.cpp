@@ -35,7 +35,7 @@ Region region_of(const Patch& patch) {
 
 }  // namespace
 
-TEST_CASE("ear: the sharpest corner with a triangle of its own is found, right angles are none") {
+TEST_CASE("ear: the sharpest corner with a triangle of its own is found; right angles do not count") {
   const Region region = region_of(wedge(3));
   const auto ear = sharpest_ear(region);
   REQUIRE(ear.has_value());

@@ -37,7 +37,7 @@ ErrorDetails details_after(const std::function<void(Patch&)>& spoil) {
 
 }  // namespace
 
-TEST_CASE("errors: kind, place and node say what the words say") {
+TEST_CASE("errors: kind, place and node agree with the message") {
   const ErrorDetails nowhere = details_after([](Patch& p) { p.points[4].x() = std::nan(""); });
   CHECK(nowhere.kind == ErrorKind::not_finite);
   REQUIRE(nowhere.subject);

@@ -92,7 +92,7 @@ TEST_CASE("grade_fans: a disc and a shell of very many triangles get rings, unti
   }
 }
 
-TEST_CASE("grade_fans: nodes at any distances") {
+TEST_CASE("grade_fans: works for nodes at any distances") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     Rng rng(seed);

@@ -96,7 +96,7 @@ Patch throw_nodes(Patch patch, const Patch& triangles, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("improve: a grid stays what it is") {
+TEST_CASE("improve: a grid stays a grid") {
   const Patch patch = grid(6, 4);
   const QuadMesh mesh = improve(patch).mesh;
   CHECK(broken(patch, mesh).empty());
@@ -186,7 +186,7 @@ TEST_CASE("improve: a quad whose corners cannot move is cut and built anew") {
   CHECK(mesh.triangles.empty());
 }
 
-TEST_CASE("improve: nodes with two neighbours go") {
+TEST_CASE("improve: nodes with two neighbours are removed") {
   Patch patch = grid(4, 4);
   // The square at the centre left becomes two quads around a node inside.
   const auto n = patch.quads[5];
@@ -231,7 +231,7 @@ TEST_CASE("improve: a fold in the boundary is refused, with its place") {
   }
 }
 
-TEST_CASE("improve: nothing comes of nothing, and the stages are measured as in a conversion") {
+TEST_CASE("improve: an empty mesh stays empty, and stages are timed as in a conversion") {
   CHECK(improve(Patch{}).mesh.quads.empty());
   qmorph::Options options;
   qmorph::test::Watcher watcher;
@@ -304,7 +304,7 @@ TEST_CASE("improve: what is good stays as good") {
   }
 }
 
-TEST_CASE("improve: no region gets worse but for triangles that have to go") {
+TEST_CASE("improve: no region gets worse, except where triangles have to go") {
   int worse = 0, regions = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);

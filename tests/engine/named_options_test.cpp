@@ -28,7 +28,7 @@ TEST_CASE("named options: the constants of table 4.1, angles in degrees") {
   }
 }
 
-TEST_CASE("named options: what is no name, no number or out of range is refused") {
+TEST_CASE("named options: unknown names, texts that are not numbers and values out of range are refused") {
   Options options;
   CHECK_THROWS_AS(set_option(options, "thetamax", 1), UsageError);
   CHECK_THROWS_AS(set_option(options, "MYMIN", -0.1), UsageError);
@@ -36,7 +36,7 @@ TEST_CASE("named options: what is no name, no number or out of range is refused"
   CHECK_THROWS_AS(set_option(options, "cleanup.pattern_rounds", 1e9), UsageError);
 }
 
-TEST_CASE("named options: what was set is what is got") {
+TEST_CASE("named options: what was set is read back") {
   Options options;
   CHECK(get_option(options, "EPSILON2") == doctest::Approx(45));
   CHECK(get_option(options, "layers") == 1);

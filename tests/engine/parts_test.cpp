@@ -82,7 +82,7 @@ TEST_CASE(
   CHECK(large < all / 50);  // where a cut would leave crumbs
 }
 
-TEST_CASE("parts: a region that is not much larger than a part stays whole and as it is") {
+TEST_CASE("parts: a region that is not much larger than a part stays whole") {
   for (Sample& sample : samples(5, 100)) {
     const Mesh before = sample.mesh;
     const Division division = divide(sample.mesh, sample.region.triangles.size());
@@ -92,7 +92,7 @@ TEST_CASE("parts: a region that is not much larger than a part stays whole and a
   }
 }
 
-TEST_CASE("parts: cuts that leave nothing on one side are none, and no triangle is lost") {
+TEST_CASE("parts: cuts that leave nothing on one side are not made, and no triangle is lost") {
   for (Sample& sample : samples(60, 40))
     for (std::size_t size : {1, 2, 3}) {
       Mesh mesh = sample.mesh;
@@ -101,7 +101,7 @@ TEST_CASE("parts: cuts that leave nothing on one side are none, and no triangle 
     }
 }
 
-TEST_CASE("parts: parts that nobody has worked on are the region again when they are joined") {
+TEST_CASE("parts: parts that nobody has changed give the same region again when they are joined") {
   for (Sample& sample : samples(30, 4 * kPart)) {
     const Division division = divide(sample.mesh, kPart);
     const std::vector<Region> parts = take_apart(sample.mesh, division);
@@ -160,7 +160,7 @@ TEST_CASE(
   CHECK_FALSE(has_grid_outline(with_point));
 }
 
-TEST_CASE("parts: a long rectangle is cut across, a notch is where it is cut") {
+TEST_CASE("parts: a long rectangle is cut across, and a notch attracts the cut") {
   const auto outline = [](const std::vector<Vec2>& corners) {
     std::vector<std::pair<Vec2, Vec2>> segments;
     for (std::size_t i = 0; i < corners.size(); ++i)

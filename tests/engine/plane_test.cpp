@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "engine/regions.hpp"
 #include "qmorph/convert.hpp"
@@ -79,7 +80,7 @@ TEST_CASE("plane: a clockwise patch is seen from below, and its result is clockw
   }
 }
 
-TEST_CASE("plane: rounding out of the plane is no tilt") {
+TEST_CASE("plane: rounding errors off the plane do not tilt it") {
   Patch patch = square({0, 0, 2}, kX, kY);
   patch.points[4].z() += 1e-15;
   const Plane plane = *find_plane(patch);
@@ -87,7 +88,7 @@ TEST_CASE("plane: rounding out of the plane is no tilt") {
   CHECK(plane.axis_v == kY);
 }
 
-TEST_CASE("plane: what is nearly one is one, and a node out of it makes a curved surface") {
+TEST_CASE("plane: a nearly planar patch is planar, and a node off the plane makes a curved surface") {
   Patch patch = square(Vector3d::Zero(), kX, kY);
   patch.points[4].z() = 1e-7;  // a file with seven digits may have moved it
   CHECK(find_plane(patch));
@@ -101,6 +102,11 @@ TEST_CASE("plane: what has no area or no place is refused, with coordinates") {
   SUBCASE("a coordinate that is no number, by the node that has it") {
     patch.points[3].y() = std::numeric_limits<double>::quiet_NaN();
     CHECK(contains(refusal(patch), "node 3"));
+  }
+  SUBCASE("a coordinate whose powers overflow, by the node that has it") {
+    patch.points[3].y() = -1e200;
+    CHECK(contains(refusal(patch), "node 3"));
+    CHECK(contains(refusal(patch), "too large to compute with"));
   }
   SUBCASE("no area in sum") {
     for (auto& p : patch.points) p.y() = 0;
@@ -123,6 +129,24 @@ TEST_CASE("convert refuses a triangle that is turned over, whether its node may 
   SUBCASE("free") {}
   SUBCASE("fixed") { patch.fixed = {4}; }
   CHECK(contains(refusal(patch), "(12.5, 0, 0)"));
+}
+
+TEST_CASE("convert refuses a triangle that is turned over where all others are halves of a layer's quads") {
+  // A ring of two rows; a node of its outer rim has been put onto one of its inner rim.
+  Patch patch;
+  for (const double radius : {2.0, 2.5, 3.0})
+    for (int i = 0; i < 5; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 5;
+      patch.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  for (Index row : {0u, 5u})
+    for (Index i = 0; i < 5; ++i) {
+      const Index a = row + i, b = row + (i + 1) % 5;
+      patch.triangles.insert(patch.triangles.end(), {{a, a + 5, b + 5}, {a, b + 5, b}});
+    }
+  CHECK(refusal(patch) == "");
+  patch.points[11] = patch.points[1];
+  CHECK(contains(refusal(patch), "is turned over"));
 }
 
 TEST_CASE("convert repairs a triangle without area if its node is free to move") {

@@ -49,7 +49,7 @@ struct FlatSide {
 
 }  // namespace
 
-TEST_CASE("prepare: flat triangles that are nested on a straight side are turned away, whatever their order") {
+TEST_CASE("prepare: flat triangles nested along a straight side are swapped away, whatever their order") {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     CAPTURE(seed);
     const Patch patch = FlatSide(seed).patch;

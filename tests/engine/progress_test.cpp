@@ -35,7 +35,7 @@ ProgressCallback at_call(int n, std::atomic<int>& calls, const std::function<Pro
 
 }  // namespace
 
-TEST_CASE("progress: shares grow from 0 to 1, and to be told changes nothing") {
+TEST_CASE("progress: shares grow from 0 to 1, and listening changes nothing") {
   const Patch patch = test::random_domain(3).patch;
   std::vector<double> shares;
   Options options;
@@ -52,7 +52,7 @@ TEST_CASE("progress: shares grow from 0 to 1, and to be told changes nothing") {
   CHECK(mesh.points == convert(patch).mesh.points);
 }
 
-TEST_CASE("progress: whoever cancels gets Cancelled, wherever the work is, on one thread and on many") {
+TEST_CASE("progress: cancelling throws Cancelled, wherever the work is, on one thread and on many") {
   const std::vector<Patch> patches = some_patches();
   for (int threads : {1, 0})
     for (int n = 1; n < 20; n += 3) {

@@ -43,7 +43,7 @@ int copies(const Region& region, Index node) { return int(std::count(region.node
 
 }  // namespace
 
-TEST_CASE("regions: without constraints there is one, as the patch is") {
+TEST_CASE("regions: without constraints there is one, the patch itself") {
   Patch patch = plate(3, 2);
   patch.fixed = {5};
   const auto regions = cut(patch);

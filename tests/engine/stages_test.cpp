@@ -63,7 +63,7 @@ TEST_CASE("stages: the front leaves what elimination joins") {
   CHECK(after(Stage::elimination).triangles.size() <= report.odd_regions);
 }
 
-TEST_CASE("stages: of several surfaces each is told of under its number, in order, and of those that failed nothing") {
+TEST_CASE("stages: surfaces are reported under their numbers, in order, and those that failed not at all") {
   std::vector<Patch> patches;
   for (std::uint64_t seed = 0; seed < 5; ++seed) patches.push_back(random_domain(seed).patch);
   patches[2].points[0].x() = std::nan("");
@@ -88,7 +88,7 @@ TEST_CASE("stages: of several surfaces each is told of under its number, in orde
           }) == int(outcomes[i].conversion->report.regions));
 }
 
-TEST_CASE("stages: fronts of tries that were not taken are not kept") {
+TEST_CASE("stages: fronts of rejected tries are not kept") {
   int started = 0, kept = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Watcher watcher;

@@ -34,7 +34,7 @@ Made advance(Mesh mesh, const FrontOptions& options) {
 
 }  // namespace
 
-TEST_CASE("decisions: constants that would decide the same make the same mesh, and others often another one") {
+TEST_CASE("decisions: constants that would decide alike make the same mesh, and others often a different one") {
   int same = 0, others = 0, other_meshes = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);

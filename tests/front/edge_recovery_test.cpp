@@ -57,7 +57,7 @@ TEST_CASE("recover_edge: five edges in the way give way one after another") {
   CHECK(defect(s.mesh) == "");
 }
 
-TEST_CASE("recover_edge: what is in the way for good") {
+TEST_CASE("recover_edge: what cannot be moved out of the way") {
   SUBCASE("a node on the segment") {
     Scene s(grid(2, 2, Diagonals::falling));
     CHECK(s.refuses([&] { return recover_edge(s.step, s.at(0, 1), 8) != kNone; }));

@@ -133,7 +133,7 @@ TEST_CASE("front: at the tip of a slit the angle is the whole circle, at its mou
   CHECK(s.front.state(s.at(9, 4)).left);
 }
 
-TEST_CASE("front: a corner is an end below 3 pi / 4") {
+TEST_CASE("front: an end of an edge is a corner below 3 pi / 4") {
   // A fan at node 1: the angle between 1-2 and 1-0 is given.
   const struct {
     double angle;
@@ -153,7 +153,7 @@ TEST_CASE("front: a corner is an end below 3 pi / 4") {
   CHECK(square.front.state(square.at(0, 1)).corners() == 2);
 }
 
-TEST_CASE("front: the queue gives the lowest level, then most corners, then the shortest") {
+TEST_CASE("front: the queue returns the lowest level first, then most corners, then the shortest") {
   //   8---9--10--11       a strip 4 x 2 with one short boundary edge, 1-2
   //   4---5---6---7
   //   0---1-2-----3
@@ -205,7 +205,7 @@ TEST_CASE("front: the queue gives the lowest level, then most corners, then the 
   }
 }
 
-TEST_CASE("front: levels go back with a rollback") {
+TEST_CASE("front: a rollback restores levels") {
   Scene s(cells({}));
   s.front.set_level(s.at(0, 1), 2);
   const Index h = s.at(0, 1);

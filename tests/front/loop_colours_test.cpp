@@ -53,7 +53,7 @@ TEST_CASE("colours: on an even loop a new edge is allowed exactly if it leaves t
   }
 }
 
-TEST_CASE("colours: on random meshes with holes, loops of their own may always be joined") {
+TEST_CASE("colours: on random meshes with holes, separate loops may always be joined") {
   int pairs = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
@@ -115,7 +115,7 @@ TEST_CASE("colours: an odd loop has exactly one edge whose ends have the same co
   CHECK(unfit_edges(even) == 0);
 }
 
-TEST_CASE("colours: two odd loops that meet are one even loop, coloured anew") {
+TEST_CASE("colours: two odd loops that meet become one even loop, coloured anew") {
   for (const Index n : {3u, 5u, 7u}) {
     CAPTURE(n);
     Scene s(annulus(n));
@@ -140,7 +140,7 @@ TEST_CASE("colours: an odd loop that meets an even one makes an odd loop") {
   CHECK(unfit_edges(s) == 1);
 }
 
-TEST_CASE("colours: a new node gets the colour of the other end, or the same, and loses it") {
+TEST_CASE("colours: a new node gets the colour opposite to the other end's, or the same, and loses it again") {
   Scene s(annulus(4));
   s.colours.colour_opposite(20, 1);
   CHECK(s.colours.may_join(20, 1));
@@ -152,7 +152,7 @@ TEST_CASE("colours: a new node gets the colour of the other end, or the same, an
   CHECK_FALSE(s.colours.is_coloured(21));
 }
 
-TEST_CASE("colours: a rollback takes colours back") {
+TEST_CASE("colours: a rollback restores colours") {
   Scene s(annulus(4));
   CHECK(s.refuses([&] {
     s.colours.colour_same(1, 2);

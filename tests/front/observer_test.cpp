@@ -83,7 +83,7 @@ TEST_CASE("observer: steps applied one after another make the mesh that the fron
   CHECK(quads > 500);
 }
 
-TEST_CASE("observer: after each step the edges that were told of are the front, with their states") {
+TEST_CASE("observer: after each step the reported edges are the front, with their states") {
   std::size_t edges = 0;
   for (std::uint64_t seed = 0; seed < 25; ++seed) {
     CAPTURE(seed);
@@ -99,7 +99,7 @@ TEST_CASE("observer: after each step the edges that were told of are the front, 
   CHECK(edges > 5000);
 }
 
-TEST_CASE("observer: who returns nobody sees nothing, and is not in the way") {
+TEST_CASE("observer: one that returns nobody sees nothing, and changes nothing") {
   Rng rng(3);
   Mesh mesh = random_mesh(rng);
   Observer nobody;

@@ -27,7 +27,7 @@ std::vector<Index> outer_ring(const Scene& s) { return {s.at(0, 1), s.at(1, 2), 
 
 }  // namespace
 
-TEST_CASE("form_face: everything inside the ring goes, nodes too") {
+TEST_CASE("form_face: everything inside the ring is removed, nodes included") {
   Scene s(frame(kTriangles));
   const Index face = front::form_face(s.step, outer_ring(s), 10);
   REQUIRE(face != kNone);

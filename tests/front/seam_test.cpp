@@ -80,7 +80,7 @@ TEST_CASE("seam: a gap of several triangles is cleared first") {
   CHECK(defect(s.mesh) == "");
 }
 
-TEST_CASE("seam: a fixed node stays where it is, the other goes into it") {
+TEST_CASE("seam: a fixed node stays where it is, the other is merged into it") {
   for (const Index fixed : {1u, 2u}) {
     CAPTURE(fixed);
     Mesh mesh = drawn(kPoints, kFaces);

@@ -125,7 +125,7 @@ TEST_CASE("side edge: a swap that would leave odd loops becomes a split") {
   CHECK(defect(s.mesh) == "");
 }
 
-TEST_CASE("side edge: an edge that is there but would leave odd loops ends half-way") {
+TEST_CASE("side edge: an existing edge that would leave odd loops is used up to its middle") {
   //     3
   //   / | \           four front edges, and the edge 0-3 inside
   //  1--0--2
@@ -145,7 +145,7 @@ TEST_CASE("side edge: an edge that is there but would leave odd loops ends half-
   }
 }
 
-TEST_CASE("side edge: node and edge that the other side has taken are left alone") {
+TEST_CASE("side edge: a node and an edge that the other side edge has taken are left alone") {
   SUBCASE("the node") {
     Scene s(fan({0, 1}));
     const Index side = define_side_edge(s.step, corner_at_0(s), {3, kNone});
@@ -166,7 +166,7 @@ TEST_CASE("side edge: node and edge that the other side has taken are left alone
   }
 }
 
-TEST_CASE("side edge: a front edge opposite leaves only what is there") {
+TEST_CASE("side edge: with a front edge opposite, only existing edges can be used") {
   Scene s(drawn({{0, 0}, {-1, 0.3}, {1, 0.3}}, {{0, 2, 1}}));
   CHECK(s.refuses([&] { return define_side_edge(s.step, corner_at_0(s), {}) != kNone; }));
 }

@@ -48,7 +48,7 @@ TEST_CASE("corner_sine is positive exactly at convex corners") {
   CHECK(corner_sine({2, 2}, {2, 2}, {5, 1}) == 0);                    // an edge without length
 }
 
-TEST_CASE("is_convex_corner wants more than the sine given, at any scale") {
+TEST_CASE("is_convex_corner requires more than the given sine, at any scale") {
   for (const double size : {1e-12, 1.0, 1e12}) {
     const Vec2 a(size, 0), b(0, 0);
     const auto corner = [&](double angle) { return Vec2(rotated(Vec2(size * 0.01, 0), angle)); };

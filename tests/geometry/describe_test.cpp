@@ -14,7 +14,7 @@ TEST_CASE("describe: six digits where the origin is near") {
   CHECK(describe({2e-9, 0, 1e-9}) == "(2e-09, 0, 1e-09)");
 }
 
-TEST_CASE("describe: far from the origin, neighbours have different names") {
+TEST_CASE("describe: far from the origin, neighbouring points are written differently") {
   const Eigen::Vector3d corner(500123.25, 4649776.5, 312.125);  // metres, as on a map
   CHECK(describe(corner) == "(500123.25, 4649776.5, 312.125)");
   std::set<std::string> names;
@@ -23,7 +23,7 @@ TEST_CASE("describe: far from the origin, neighbours have different names") {
   CHECK(names.size() == 100 * 100);
 }
 
-TEST_CASE("describe: what is no number") {
+TEST_CASE("describe: coordinates that are not numbers") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   CHECK(describe({1, nan, 0}) == "(1, nan, 0)");
   CHECK(describe({1, 0, infinite}).find("inf") != std::string::npos);

@@ -58,7 +58,7 @@ TEST_CASE("orientation: rotating the arguments changes nothing, exchanging two c
   CHECK(turned > 5000);
 }
 
-TEST_CASE("orientation: a point off the line by less than a rounding error is seen") {
+TEST_CASE("orientation: a point off the line by less than a rounding error is noticed") {
   // 0.5, 12 and 24 lie on y = x; the first is moved by one unit in the last place, 1.1e-16, either way.
   const Vec2 b(12, 12), c(24, 24);
   CHECK(orientation({0.5, 0.5}, b, c) == 0);

@@ -14,7 +14,7 @@ TEST_CASE("Z-curve: each point once, quarter by quarter of the square") {
   CHECK(along_z_curve(points) == std::vector<Index>{0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15});
 }
 
-TEST_CASE("Z-curve: points on one place keep their order, none is no error") {
+TEST_CASE("Z-curve: coincident points keep their order, and no points at all are no error") {
   CHECK(along_z_curve({{1, 1}, {1, 1}, {1, 1}}) == std::vector<Index>{0, 1, 2});
   CHECK(along_z_curve({}).empty());
 }

@@ -307,7 +307,7 @@ TEST_CASE("make_even: in a running session, and what makes no sense is refused w
   CHECK(session::recombine().total.triangles == 0);
 }
 
-TEST_CASE("--all-quad: words that go with it") {
+TEST_CASE("--all-quad: messages that go with it") {
   const TemporaryDirectory directory;
   make_squares(directory, 4);
   const std::string in = directory / "in.msh", out = directory / "out.msh";

@@ -188,7 +188,7 @@ TEST_CASE("broken files: data, periodic nodes, groups and names that reach beyon
   }
 }
 
-TEST_CASE("broken files: what Gmsh writes is taken, whatever is in it") {
+TEST_CASE("broken files: whatever Gmsh writes is accepted") {
   const TemporaryDirectory directory;
   const std::vector<std::function<void()>> models = {
       build_two_squares, [] { build_two_squares(), ::gmsh::model::mesh::setOrder(2); },
@@ -238,7 +238,7 @@ TEST_CASE("broken files: no node of a partitioned mesh of version 3 is taken for
   CHECK(changed > 30);
 }
 
-TEST_CASE("broken files: no word of a binary file can be changed so that the check itself goes astray") {
+TEST_CASE("broken files: no change of one word of a binary file makes the check itself fail") {
   const TemporaryDirectory directory;
   for (const double version : {2.2, 4.1}) {
     make_msh(directory / "whole.msh", version, true, build_two_squares);

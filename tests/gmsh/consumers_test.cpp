@@ -88,7 +88,7 @@ TEST_CASE("consumers: lines inside are kept for those that take them, and left o
   CHECK(count_inner(Run("elmer", square())) > 0);
 }
 
-TEST_CASE("consumers: what a reader would not take is said in its terms, and nothing is written") {
+TEST_CASE("consumers: what a reader would refuse is reported in its terms, and nothing is written") {
   const std::string twice = "Physical Surface(\"all\", 9) = {1};\n";
   const std::string none = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nMesh.MeshSizeMax = 0.3;\n";
   const struct {
@@ -97,11 +97,11 @@ TEST_CASE("consumers: what a reader would not take is said in its terms, and not
     std::vector<std::string> words;
     const char* message;
   } kCases[] = {
-      {"dealii", square(twice), {}, "surface 1 is in 2 physical groups, and deal.II takes one for each element"},
-      {"dealii", square(), {"-order", "2"}, "its elements are of order 2, and deal.II takes order 1 at most"},
-      {"dolfinx", none, {}, "surface 1 is in no physical group, and DOLFINx wants every cell tagged"},
+      {"dealii", square(twice), {}, "surface 1 is in 2 physical groups, and deal.II takes one per element"},
+      {"dealii", square(), {"-order", "2"}, "the elements are of order 2, and deal.II takes order 1 at most"},
+      {"dolfinx", none, {}, "surface 1 is in no physical group, and DOLFINx needs a tag for every cell"},
       {"openfoam", square(), {}, "there are no cells of dimension 3, and gmshToFoam reads no others"},
-      {"su2", none, {}, "no curve is in a physical group, and SU2 would have no marker"},
+      {"su2", none, {}, "no curve is in a physical group, so SU2 would have no marker"},
   };
   for (const auto& the_case : kCases) {
     CAPTURE(the_case.message);
@@ -116,12 +116,12 @@ TEST_CASE("consumers: what a reader would not take is said in its terms, and not
   CHECK(mentions(unknown.result.err, "there is no reader 'fluent' (dealii, mfem, "));
 }
 
-TEST_CASE("consumers: a triangle that is left is said to those who want quads") {
+TEST_CASE("consumers: a triangle that is left is reported for readers that need quads") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {"2 2 1 1 1 2 3"}));
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--for", "dealii"});
   CHECK(result.status == 6);
-  CHECK(mentions(result.err, "1 triangle is left, and deal.II wants quads alone"));
+  CHECK(mentions(result.err, "1 triangle is left, and deal.II takes quads only"));
 }
 
 TEST_CASE("consumers: a deck has plane-stress quads and sets, and no trusses") {
@@ -167,17 +167,17 @@ TEST_CASE("consumers: SPECFEM2D's converter gets lines first, and the names that
   const Run unnamed("specfem2d", square());
   CHECK(unnamed.result.status == 6);
   CHECK(mentions(unnamed.result.err,
-                 "wants physical curves Top, Bottom, Left and Right, and there is no Bottom, Left, Right, Top"));
-  CHECK(mentions(unnamed.result.err, "wants physical surfaces to be named M1, M2, ..., and there is 1 \"plate\""));
+                 "needs physical curves Top, Bottom, Left and Right, and there is no Bottom, Left, Right, Top"));
+  CHECK(mentions(unnamed.result.err, "needs physical surfaces to be named M1, M2, ..., and there is 1 \"plate\""));
 }
 
-TEST_CASE("consumers: elements of two orders are no mesh for them") {
+TEST_CASE("consumers: elements of two orders are refused") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 0, 0}, {5, 0, 0}, {4, 0, 0}},
                                          {"2 2 1 1 1 2 3", "2 2 1 1 1 3 4", "8 2 2 1 5 6 7"}));
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--for", "mfem"});
   CHECK(result.status == 6);
-  CHECK(mentions(result.err, "its elements are of orders 1 and 2, and MFEM takes one for all"));
+  CHECK(mentions(result.err, "the elements are of orders 1 and 2, and MFEM takes only one order in a file"));
 }
 
 TEST_CASE("consumers: the family of a deck's elements") {
@@ -227,7 +227,7 @@ TEST_CASE("consumers: surfaces that are not in the plane z = 0 are shells in a d
     const Run run("calculix", kWall, {"--elements", family});
     CHECK(run.result.status == 6);
     CHECK(mentions(run.result.err,
-                   std::string("elements ") + family + " lie in the plane z = 0, and this mesh has a node at ("));
+                   std::string("elements ") + family + " must lie in the plane z = 0, and this mesh has a node at ("));
     CHECK(mentions(run.result.err, "--elements S makes shells"));
   }
 }
@@ -261,12 +261,12 @@ TEST_CASE("consumers: Gmsh's own decks have shells in space, too") {
   }
 }
 
-TEST_CASE("consumers: readers of planar meshes refuse others in their own terms") {
+TEST_CASE("consumers: for readers of planar meshes others are refused, in the reader's terms") {
   const Run su2("su2", kWall);
   CHECK(su2.result.status == 6);
-  CHECK(mentions(su2.result.err, "SU2 takes surfaces in a plane z = constant alone, and this mesh has nodes at ("));
+  CHECK(mentions(su2.result.err, "SU2 takes surfaces only in a plane z = constant, and this mesh has nodes at ("));
   CHECK(su2.directory.files() == std::vector<std::string>{"in.geo"});
-  CHECK(mentions(Run("specfem2d", kWall).result.err, "SPECFEM2D takes surfaces in a plane z = constant alone"));
+  CHECK(mentions(Run("specfem2d", kWall).result.err, "SPECFEM2D takes surfaces only in a plane z = constant"));
   CHECK(Run("su2", at_height("0.5")).result.status == 0);
   for (const char* reader : {"dealii", "mfem", "dolfinx", "elmer"}) CHECK(Run(reader, kWall).result.status == 0);
 }

@@ -85,7 +85,7 @@ std::string motor(int inner, int outer, double gap, double size, double turn) {
 
 }  // namespace
 
-TEST_CASE("divide: the two sides of a thin ring get as many segments, wherever they are cut") {
+TEST_CASE("divide: the two sides of a thin ring get equally many segments, wherever they are cut") {
   Rng rng(1);
   for (int trial = 0; trial < 6; ++trial) {
     const int inner = rng.range(3, 7), outer = rng.range(3, 7);
@@ -117,6 +117,43 @@ TEST_CASE("divide: ribs on a plate have no triangle and no poor quad") {
   }
 }
 
+TEST_CASE("divide: where thin wings end at a body, the curve that runs past has nodes across from its corners") {
+  Rng rng(3);
+  for (int trial = 0; trial < 8; ++trial) {
+    CAPTURE(trial);
+    const double left = rng.between(0.5, 1.5), right = rng.between(0.5, 1.5), thin = rng.between(0.002, 0.02);
+    const std::string script = fmt::format(
+        "s = {};\nPoint(1) = {{0, 0, 0, s}};\nPoint(2) = {{1, 0, 0, s}};\nPoint(3) = {{1, 1, 0, s}};\n"
+        "Point(4) = {{{}, 1, 0, s}};\nPoint(5) = {{{}, {}, 0, s}};\nPoint(6) = {{{}, {}, 0, s}};\n"
+        "Point(7) = {{{}, 1, 0, s}};\nPoint(8) = {{0, 1, 0, s}};\nFor i In {{1:8}}\n"
+        "Line(i) = {{i, i % 8 + 1}};\nEndFor\nCurve Loop(1) = {{1:8}};\nPlane Surface(1) = {{1}};\n",
+        rng.between(0.1, 0.2), 1 + right, 1 + right, 1 + thin, -left, 1 + thin, -left);
+    const auto [after, worst] = convert(script);
+    const auto& points = after.mesh.points;
+    for (double x : {0.0, 1.0})
+      CHECK(std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
+        return std::abs(p.x() - x) < 1e-6 && std::abs(p.y() - 1 - thin) < 1e-9;
+      }));
+    CHECK(worst > 0.25);
+  }
+}
+
+TEST_CASE("divide: a short straight spline is one segment, a bent one is not") {
+  const auto strip = [](double bend) {
+    return fmt::format(
+        "Point(1) = {{0, 0, 0, 0.1}};\nPoint(2) = {{1.3, 0, 0, 0.1}};\nPoint(3) = {{1.3, 0.02, 0, 0.1}};\n"
+        "Point(4) = {{0, 0.02, 0, 0.1}};\nPoint(5) = {{{}, 0.01, 0, 0.1}};\nLine(1) = {{1, 2}};\n"
+        "Spline(2) = {{2, 5, 3}};\nLine(3) = {{3, 4}};\nSpline(4) = {{4, 1}};\nCurve Loop(1) = {{1:4}};\n"
+        "Plane Surface(1) = {{1}};\n",
+        1.3 + bend);
+  };
+  const auto [straight, worst] = convert(strip(0));
+  CHECK(segments(straight, 2) == 1);
+  CHECK(segments(straight, 4) == 1);
+  CHECK(worst > 0.9);
+  CHECK(segments(convert(strip(0.005)).snapshot, 2) == 2);
+}
+
 TEST_CASE("divide: an edge shorter than the size stays one segment") {
   const auto [after, worst] = convert(
       "Point(1) = {0, 0, 0, 0.2}; Point(2) = {2, 0, 0, 0.2}; Point(3) = {2, 0.9, 0, 0.2}; Point(4) = {1.9, 1, 0, "
@@ -128,7 +165,45 @@ TEST_CASE("divide: an edge shorter than the size stays one segment") {
   CHECK(worst > 0.4);
 }
 
-TEST_CASE("divide: a graded curve stays as graded with another number of segments") {
+TEST_CASE("divide: each side of a small triangle in a plate has two segments, and no quad is poor") {
+  Rng rng(3);
+  for (int trial = 0; trial < 6; ++trial) {
+    // Of sides that are about as long as a size, and nearly alike.
+    const double turn = rng.between(0, 2 * M_PI), radius = rng.between(0.2, 0.27);
+    std::string script = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {-2, -2, 0, 4, 4};\n";
+    for (int k = 0; k < 3; ++k) {
+      const double angle = turn + (2 * k + rng.between(-0.2, 0.2)) * M_PI / 3;
+      script +=
+          fmt::format("Point({}) = {{{}, {}, 0}};\n", 101 + k, radius * std::cos(angle), radius * std::sin(angle));
+    }
+    script +=
+        "Line(101) = {101, 102}; Line(102) = {102, 103}; Line(103) = {103, 101};\nCurve Loop(101) = {101:103}; Plane "
+        "Surface(2) = {101};\nBooleanFragments{Surface{1}; Delete;}{Surface{2}; Delete;}\nMesh.MeshSizeMax = 0.5;\n";
+    const auto [after, worst] = convert(script);
+    CAPTURE(trial);
+    int sides = 0;
+    for (const adapter::EntityMesh& entity : after.mesh.entities)
+      if (entity.dim == 1 && entity.element_count() == 2) ++sides;
+    CHECK(sides == 3);
+    CHECK(worst > 0.55);
+  }
+}
+
+TEST_CASE("divide: where another curve can make a boundary even, those at an acute corner keep Gmsh's numbers") {
+  // A kite with a corner of about 30 degrees: two sides of 20 segments, and 23 on the others. By its length a long side
+  // costs least to change.
+  const Snapshot after =
+      convert(
+          "Point(1) = {0, 0, 0, 0.1}; Point(2) = {1.9, 0.52, 0, 0.1}; Point(3) = {2.63, 0.24, 0, 0.1};\n"
+          "Point(4) = {2.63, -0.45, 0, 0.1}; Point(5) = {1.9, -0.52, 0, 0.1};\n"
+          "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 1};\n"
+          "Curve Loop(1) = {1:5}; Plane Surface(1) = {1};\n")
+          .snapshot;
+  CHECK(segments(after, 1) == 20);
+  CHECK(segments(after, 5) == 20);
+}
+
+TEST_CASE("divide: a graded curve keeps its grading with another number of segments") {
   // 1 to 10 along the bottom. A kept curve at the top makes the sum odd or even.
   const auto script = [](double top) {
     return fmt::format(
@@ -151,7 +226,7 @@ TEST_CASE("divide: a graded curve stays as graded with another number of segment
   }
 }
 
-TEST_CASE("divide: curves that are to be kept have Gmsh's own number") {
+TEST_CASE("divide: curves that are to be kept keep Gmsh's number") {
   // 7 + 5 + 7 + 6 and a hole of 5 + 5: one of all has to give way.
   const std::string script =
       "Point(1) = {0, 0, 0, 0.15}; Point(2) = {1, 0, 0, 0.15}; Point(3) = {1, 0.7, 0, 0.15}; Point(4) = {0, 0.85, 0, "
@@ -200,7 +275,7 @@ TEST_CASE("divide: where surfaces meet by threes in a curve, all of them are eve
   }
 }
 
-TEST_CASE("divide: circles that are as coarse as circles may be can have one segment more") {
+TEST_CASE("divide: circles that are as coarse as allowed can get one segment more") {
   const Converted converted = convert(
       "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 0.1}; Rectangle(2) = {-1, -1, 0, 2, 2};\n"
       "BooleanFragments{ Surface{1, 2}; Delete; }{}\nMeshSize{:} = 0.5;\n");

@@ -68,7 +68,7 @@ bool has_edge(const Snapshot& snapshot, int surface, std::array<double, 3> a, st
 
 }  // namespace
 
-TEST_CASE("foreign: MSH 2.2 with every kind of tags") {
+TEST_CASE("foreign: MSH 2.2 with every kind of tag") {
   const struct {
     const char *triangles, *lines;
     int surface;
@@ -176,7 +176,7 @@ TEST_CASE("foreign: a wall that stands in the middle of one surface keeps its fo
   CHECK(has_edge(after, 1, {0.5, 0.5, 0}, {0.5, 0.75, 0}));
 }
 
-TEST_CASE("foreign: one elementary tag for plates in different planes and senses") {
+TEST_CASE("foreign: one elementary tag for plates in different planes and orientations") {
   const TemporaryDirectory directory;
   Grid low, high;
   high.z = 1;
@@ -267,7 +267,7 @@ TEST_CASE("foreign: coordinates with 17 digits come back bit for bit in MSH 2.2"
   CHECK(read_file(directory / "out.msh").find("0.30000000000000004") != std::string::npos);
 }
 
-TEST_CASE("foreign: new nodes take free numbers where there are none above") {
+TEST_CASE("foreign: new nodes take free numbers below where there are none above") {
   const TemporaryDirectory directory;
   // A corner of 270 degrees, which no single quad can have.
   write_file(directory / "in.msh",

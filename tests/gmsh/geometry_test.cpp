@@ -90,7 +90,7 @@ TEST_CASE("geometry: -setnumber, -clscale, -clmin and -algo reach Gmsh") {
   run({"-2", "-clmax", "0.2", "-algo", "MeshAdapt", "-setstring", "name", "x"});
 }
 
-TEST_CASE("geometry: an option that Gmsh does not have is said") {
+TEST_CASE("geometry: an option that Gmsh does not have is reported") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kRectangle);
   const Result result = run_qmorph({directory / "in.geo", "-clmax", "0.3", "-setnumber", "Mesh.Whatever", "3",
@@ -169,7 +169,7 @@ TEST_CASE("geometry: formats by name and by extension") {
   CHECK(read_file(directory / "f.msh").substr(0, 17) == "$MeshFormat\n2.2 0");
 }
 
-TEST_CASE("geometry: nothing with surfaces in it") {
+TEST_CASE("geometry: a file without surfaces") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", "Point(1) = {0, 0, 0, 1};\nPoint(2) = {1, 0, 0, 1};\nLine(1) = {1, 2};\n");
   const Result result = run_qmorph({directory / "in.geo"});
@@ -194,7 +194,7 @@ TEST_CASE("geometry: surfaces that a Compound Surface joins are converted one by
   for (int surface : {1, 2}) CHECK(element_counts(after, surface).first == 0);
 }
 
-TEST_CASE("geometry: a narrow surface of a compound may get no element, which is said") {
+TEST_CASE("geometry: a narrow surface of a compound may get no element, which is reported") {
   // The geometry of Gmsh's tutorial t12 in short.
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", R"(

@@ -116,7 +116,7 @@ TEST_CASE("high order: an order that the script asks for") {
   CHECK(types_of(read_snapshot(directory / "in.msh"), 1).count(kQuad9) == 1);
 }
 
-TEST_CASE("high order: a curved side that would turn a quad over is refused") {
+TEST_CASE("high order: a curved side that would invert a quad is refused") {
   const TemporaryDirectory directory;
   // The lower side leaves its first corner to the left of the side behind it.
   const std::string nodes =

@@ -139,7 +139,7 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
   }
 }
 
-TEST_CASE("layers of Gmsh: where its own quads would enclose an odd fan, no triangle is left all the same") {
+TEST_CASE("layers of Gmsh: even where its own quads would enclose an odd fan, no triangle is left") {
   const TemporaryDirectory directory;
   for (const int fan : {3, 5}) {
     CAPTURE(fan);
@@ -159,7 +159,7 @@ TEST_CASE("layers of Gmsh: where its own quads would enclose an odd fan, no tria
   }
 }
 
-TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, which is said by a warning, and by --check") {
+TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, and a warning and --check say so") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, [] {
     // Equilateral triangles, stretched 20 to 1, and no rows that stand on a wall.
@@ -192,7 +192,7 @@ TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, which is said 
   CHECK(run_qmorph({"--check", directory / "out.msh", "--against", directory / "in.msh"}).status == 0);
 }
 
-TEST_CASE("check: sizes are those of another mesh, which has to be named") {
+TEST_CASE("check: sizes are compared with another mesh, which has to be named") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", extruded_wall(false));
   REQUIRE(run_qmorph({directory / "in.geo", "-o", directory / "out.msh"}).status == 0);

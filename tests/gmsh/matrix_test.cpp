@@ -77,7 +77,7 @@ void build_with_volume() {
   mesh::generate(3);
 }
 
-/// A curve, a point and a surface far from everything, and a surface without an element.
+/// A curve, a point and a surface far from everything else, and a surface without elements.
 void build_orphans() {
   add_squares(1);
   occ::addLine(occ::addPoint(5, 0, 0, 0.3), occ::addPoint(6, 0, 0, 0.3));

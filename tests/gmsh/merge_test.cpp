@@ -85,7 +85,7 @@ TEST_CASE(
   CHECK(area_of_group(out, 7) == doctest::Approx(1));
 }
 
-TEST_CASE("merge: a file twice is once, and one that adds a surface to the nodes of another joins it") {
+TEST_CASE("merge: a file given twice counts once, and one that adds a surface to the nodes of another joins it") {
   const TemporaryDirectory directory;
   make_msh(directory / "a.msh", 4.1, false, square_at(0, "left", 5));
   CHECK(run_qmorph({directory / "a.msh", directory / "a.msh", "-o", directory / "twice.msh"}).status == 0);
@@ -148,7 +148,7 @@ TEST_CASE("merge: a file of data alone goes onto the mesh of the first") {
   CHECK(read_file(directory / "out.msh").find("$NodeData\n1\n\"height\"") != std::string::npos);
 }
 
-TEST_CASE("merge: a geometry whose entities a foreign mesh would take, or the other way round, is refused") {
+TEST_CASE("merge: a geometry whose entities a foreign mesh would take over, or the other way round, is refused") {
   const TemporaryDirectory directory;
   const std::string head = "SetFactory(\"OpenCASCADE\");\nMesh.MeshSizeMax = 0.3;\n";
   write_file(directory / "same.geo", head + "Rectangle(1) = {5, 0, 0, 1, 1};\n");

@@ -101,7 +101,7 @@ TEST_CASE("groups of MSH 2: a binary file is read as the ASCII one is") {
   CHECK(count_elements(read_file(directory / "a.out.msh")) == count_elements(read_file(directory / "b.out.msh")));
 }
 
-TEST_CASE("groups of MSH 2: some elements twice and others not make no sense") {
+TEST_CASE("groups of MSH 2: a file with some elements twice and others once is refused") {
   const TemporaryDirectory directory;
   const Grid grid;
   std::vector<std::string> elements;

@@ -107,7 +107,7 @@ TEST_CASE("on geometry: nodes inside surfaces lie where their parameters say, wi
   }
 }
 
-TEST_CASE("on geometry: a mesh alone is all the geometry there is") {
+TEST_CASE("on geometry: without a geometry, the mesh is all there is") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, [] { open_and_mesh(kBuiltIn); });
   const RunningGmsh gmsh;
@@ -155,7 +155,7 @@ TEST_CASE("on geometry: a mesh that has been moved away from it stays where it i
   CHECK(report.fidelity.node.max < 1e-6);
 }
 
-TEST_CASE("on geometry: the summary and the statistics say it") {
+TEST_CASE("on geometry: the summary and the statistics report it") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kBuiltIn);
   const Result result = run_qmorph({directory / "in.geo", "--stats", directory / "stats.json"});

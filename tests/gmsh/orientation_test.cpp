@@ -6,7 +6,7 @@
 
 using namespace qmorph;
 
-TEST_CASE("orientation: parts, and the smaller share is turned") {
+TEST_CASE("orientation: parts are counted, and the smaller share of each is turned") {
   const std::vector<std::array<Index, 3>> triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {10, 11, 12}};
   //                                             the third runs along 0-2 as the first runs along 2-0: fine
   const auto sides = sorted_sides(13, triangles, {});

@@ -170,7 +170,7 @@ TEST_CASE("periodic: from a geometry, and in a running session") {
   check_image(read_linked(directory / "in.msh"));
 }
 
-TEST_CASE("periodic: all of a family or none") {
+TEST_CASE("periodic: either all surfaces of a family are converted or none") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, build_translated);
   const Linked before = read_linked(directory / "in.msh");
@@ -183,7 +183,7 @@ TEST_CASE("periodic: all of a family or none") {
   CHECK((read_file(directory / "in.msh") == read_file(directory / "out.msh")));
 }
 
-TEST_CASE("periodic: a mesh that is not the image of its master is left, and so is the master") {
+TEST_CASE("periodic: a mesh that is not the image of its master is left as it is, and so is the master") {
   // In a file that pairs the node and in one that does not: there Gmsh 4.8 has no pair, and later ones take the
   // nearest.
   for (const int pairs : {25, 24}) {

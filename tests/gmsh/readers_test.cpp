@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Files are what the readers of their formats take: the same bytes each time, elements and nodes as they know them, or
+/// Files are what readers of their formats accept: the same bytes each time, with elements and nodes that they know; or
 /// none at all.
 
 #include <doctest/doctest.h>
@@ -91,7 +91,7 @@ std::set<int> types_of(const Snapshot& snapshot, int dim) {
 
 }  // namespace
 
-TEST_CASE("readers: MFEM learns which nodes are images of others") {
+TEST_CASE("readers: MFEM is told which nodes are images of others") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", kPeriodic);
   REQUIRE(run_qmorph({directory / "in.geo", "-o", directory / "out.msh", "--for", "mfem"}).status == 0);
@@ -173,11 +173,11 @@ TEST_CASE("readers: quads of order 2 in .mesh go by the name of that order") {
   REQUIRE(run_qmorph({directory / "eight.geo", "-order", "2", "-o", directory / "eight.msh"}).status == 0);
   const Result refused = run_qmorph({directory / "eight.msh", "-o", directory / "eight.mesh"});
   CHECK(refused.status == 5);
-  CHECK(mentions(refused.err, "has quads of 9 nodes for order 2, and the mesh has some of 8"));
+  CHECK(mentions(refused.err, "has quads with 9 nodes for order 2, and the mesh has some with 8"));
   CHECK_FALSE(std::filesystem::exists(directory / "eight.mesh"));
 }
 
-TEST_CASE("readers: every format is written and whole, or refused before anything is") {
+TEST_CASE("readers: every format is written completely, or refused before anything is written") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", strips());
   // Numbers with gaps, a node that nothing uses, surfaces in no group.
@@ -209,7 +209,7 @@ TEST_CASE("readers: every format is written and whole, or refused before anythin
   CHECK(run_qmorph({directory / "in.geo", "-o", directory / "out.mail"}).status == 5);  // it would have no quad
 }
 
-TEST_CASE("readers: --orient makes neighbours agree, in the plane and in space, in every format that says it") {
+TEST_CASE("readers: --orient orients neighbours alike, in the plane and in space, in every format that records it") {
   const TemporaryDirectory directory;
   write_file(directory / "flat.geo", strips());
   write_file(directory / "tilted.geo", strips(true));
@@ -236,7 +236,7 @@ TEST_CASE("readers: --orient makes neighbours agree, in the plane and in space, 
   CHECK(count_disagreements(read_snapshot(directory / "dealii.msh")) == 0);
 }
 
-TEST_CASE("readers: a strip that has no orientation is said to have none") {
+TEST_CASE("readers: a strip that cannot be oriented is reported") {
   const TemporaryDirectory directory;
   // Eight quads around a circle, with half a turn.
   std::vector<std::array<double, 3>> nodes;

@@ -87,7 +87,7 @@ TEST_CASE("recombine: two models in one process, one after the other") {
   CHECK(first.total.scaled_jacobian_mean == second.total.scaled_jacobian_mean);
 }
 
-TEST_CASE("recombine: a surface that is not there leaves the model alone") {
+TEST_CASE("recombine: naming a surface that does not exist leaves the model unchanged") {
   const RunningGmsh gmsh;
   build_two_squares();
   const std::size_t triangles = count_elements(adapter::kTriangle3);
@@ -123,7 +123,7 @@ TEST_CASE("recombine: an empty model has an empty report") {
   CHECK(session::recombine().surfaces.empty());
 }
 
-TEST_CASE("recombine: whoever cancels, or throws, finds the mesh as it was, and can go on") {
+TEST_CASE("recombine: after cancelling or throwing the mesh is as it was, and work can go on") {
   const RunningGmsh gmsh;
   build_two_squares();
   const WholeMesh before;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What cannot be converted is left as it was, and said: which surface, where, why. The rest is converted.
+/// What cannot be converted is left as it was, and reported: which surface, where, why. The rest is converted.
 
 #include <doctest/doctest.h>
 
@@ -92,7 +92,7 @@ TEST_CASE("refused: a quad of the input that is not convex") {
   check_left(mixed, "is inverted or not convex at (10.2, 0.2, 0)");
 }
 
-TEST_CASE("refused: a node at no place") {
+TEST_CASE("refused: a node whose coordinates are not numbers") {
   Mixed mixed;
   const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0);
   mixed.bad(a, b, mixed.add(0, std::nan(""), 0));
@@ -104,7 +104,7 @@ TEST_CASE("refused: a node at no place") {
   CHECK(mentions(result.err, "surface 2: 1 triangle left as it was: node 28 at (10, nan, 0) is nowhere"));
 }
 
-TEST_CASE("refused: quads alone, with a node at no place or one node twice") {
+TEST_CASE("refused: a mesh of quads only, with a node that has no place or an element with one node twice") {
   Mixed mixed;
   const int a = mixed.add(0, 0, 0), b = mixed.add(1, 0, 0), c = mixed.add(1, 1, 0);
   std::string message;
@@ -170,7 +170,7 @@ TEST_CASE("refused: coordinates whose squares are no numbers") {
   check_left(mixed, "node 27 at (1e+160, 0, 0) is too far away to compute with");
 }
 
-TEST_CASE("refused: two nodes with one tag, an element without its node") {
+TEST_CASE("refused: two nodes with the same tag, an element whose node is missing") {
   const TemporaryDirectory directory;
   const Grid grid;
   std::vector<std::string> elements;

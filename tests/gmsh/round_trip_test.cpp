@@ -70,7 +70,7 @@ TEST_CASE("round trip: MSH 1, 3 and 4.0 stay what they are") {
   }
 }
 
-TEST_CASE("round trip: elements in no physical group are not lost, in no version") {
+TEST_CASE("round trip: elements in no physical group are lost in no version") {
   for (const double version : {2.2, 4.1}) {
     CAPTURE(version);
     const TemporaryDirectory directory;

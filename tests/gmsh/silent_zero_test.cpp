@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Success is not to be told of what is not so: elements that the file does not have, parts that hang together by
-/// nothing, options that made no difference.
+/// No success is reported where there is none: elements that are not in the file, parts that are not connected, options
+/// that made no difference.
 
 #include <doctest/doctest.h>
 
@@ -82,7 +82,7 @@ TEST_CASE("silent zero: a file without a quad is not written") {
   }
 }
 
-TEST_CASE("silent zero: triangles that share no node are said to, with how many nodes could be one") {
+TEST_CASE("silent zero: triangles that share no nodes are reported, with how many nodes could be merged") {
   const TemporaryDirectory directory;
   const Grid grid{.n = 6};
   std::vector<std::array<double, 3>> nodes;
@@ -133,7 +133,7 @@ TEST_CASE("silent zero: a STEP file whose faces were not fused") {
   CHECK(mentions(result.err, "'Coherence;' in the script"));
 }
 
-TEST_CASE("silent zero: sheets that lie over one another are said to, wherever they lie") {
+TEST_CASE("silent zero: sheets that lie on top of one another are reported, wherever they lie") {
   const TemporaryDirectory directory;
   for (int seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);

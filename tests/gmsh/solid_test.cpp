@@ -101,7 +101,7 @@ TEST_CASE("elements that are turned over are mended among thin ones, too") {
   CHECK(mended == 20);
 }
 
-TEST_CASE("faces of a volume that nothing fits are counted") {
+TEST_CASE("faces inside a volume that only one element has are counted") {
   const Session session;
   build_hexahedra();
   const ModelMesh mesh = read_model_mesh();

@@ -58,7 +58,7 @@ struct Snapshot {
 };
 Snapshot read_snapshot(const std::string& path);
 
-/// How the nodes of two files are told to be the same.
+/// How the nodes of two files are matched.
 enum class Compare { tags, coordinates };
 
 /// What differs between two files besides the inside of the surfaces `converted`: entities, groups, nodes and elements

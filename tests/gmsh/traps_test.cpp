@@ -180,7 +180,7 @@ TEST_CASE("trap 10: many surfaces are put back in one go") {
   for (int i = 1; i <= 60; ++i) CHECK(element_counts(after, i).second > 0);
 }
 
-TEST_CASE("trap 11: the log and several threads do not meet") {
+TEST_CASE("trap 11: several threads do not write to the log at once") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", std::string(kSquare) + "General.NumThreads = 8;\nMesh.MaxNumThreads2D = 8;\n");
   for (int i = 0; i < 3; ++i) CHECK(run_qmorph({directory / "in.geo", "-nt", "8"}).status == 0);

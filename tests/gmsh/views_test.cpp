@@ -139,7 +139,7 @@ const View kStress{"stress", "ElementNodeData",
 
 }  // namespace
 
-TEST_CASE("views: data on nodes and elements is on the quads' nodes and on the quads") {
+TEST_CASE("views: data on nodes and elements is carried over to the quads' nodes and to the quads") {
   const std::vector<View> views = {kTemperature, kDisplacement, kMaterial, kStress};
   for (double version : {2.2, 4.1})
     for (bool binary : {false, true}) {
@@ -227,7 +227,7 @@ TEST_CASE("views: nodes that curves get have data too") {
   check_view(data, kMaterial, false);
 }
 
-TEST_CASE("views: formats that have no place for them say so") {
+TEST_CASE("views: formats that cannot hold them are reported") {
   const TemporaryDirectory directory;
   make_file_with_views(directory / "in.msh", 4.1, false, {kTemperature});
   for (const std::vector<std::string>& to :

@@ -174,7 +174,7 @@ constexpr const char* kHoled =
 
 }  // namespace
 
-TEST_CASE("volumes: extruded surfaces with curved walls become hexahedra, whatever the motion is") {
+TEST_CASE("volumes: extruded surfaces with curved walls become hexahedra, whatever the motion") {
   for (const std::string motion : {"{0, 0, 1}", "{0.371, 0.4913, 0.77}", "{{0, 1, 0}, {0, 0, 0}, 1.234}"}) {
     CAPTURE(motion);
     const auto counts =
@@ -184,7 +184,7 @@ TEST_CASE("volumes: extruded surfaces with curved walls become hexahedra, whatev
   }
 }
 
-TEST_CASE("volumes: extruded surfaces in a pile, and in a ring, fit one another") {
+TEST_CASE("volumes: extruded surfaces on top of each other, and in a ring, fit together") {
   const std::string quarter = "{{0, 1, 0}, {0, 0, 0}, Pi/2}";
   std::string pile = kHoled;
   pile += fmt::format("a[] = Extrude{}{{ Surface{{1}}; Layers{{4}}; Recombine; }};\n", quarter);

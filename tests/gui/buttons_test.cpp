@@ -25,7 +25,7 @@ TEST_CASE("window: the button meshes a geometry and makes quads of it, and what 
   CHECK(counts().second == quads);
 }
 
-TEST_CASE("window: back to triangles brings back the very mesh, and quads again are the same quads") {
+TEST_CASE("window: \"back to triangles\" restores the very same mesh, and converting again gives the same quads") {
   const TemporaryDirectory directory;
   const std::string path = directory / "two.msh";
   make_msh(path, 4.1, true, build_two_squares);
@@ -48,7 +48,7 @@ TEST_CASE("window: back to triangles brings back the very mesh, and quads again 
   CHECK(window.saved() == written(path));
 }
 
-TEST_CASE("window: back to triangles shows them as they were shown before") {
+TEST_CASE("window: \"back to triangles\" shows them as they were shown before") {
   const TemporaryDirectory directory;
   const std::string path = directory / "two.msh";
   make_msh(path, 4.1, true, build_two_squares);
@@ -75,7 +75,7 @@ TEST_CASE("window: back to triangles shows them as they were shown before") {
   CHECK(adapter::get_option("Mesh.SurfaceEdges") == 0);  // as the user has it
 }
 
-TEST_CASE("window: a file that is there is written over by a second press only, and so are quads by triangles") {
+TEST_CASE("window: an existing file is overwritten only by a second press, and so are quads by triangles") {
   const Plate plate;
   const std::string path = plate.directory / "out.msh";
   write_file(path, "somebody's");
@@ -107,7 +107,7 @@ TEST_CASE("window: a file that is there is written over by a second press only, 
   CHECK(window.said("has the triangles"));
 }
 
-TEST_CASE("window: what is chosen in the panel is what the command's options are") {
+TEST_CASE("window: choices in the panel are those of the command's options") {
   const TemporaryDirectory directory;
   const std::string path = directory / "two.msh";
   make_msh(path, 4.1, false, build_two_squares);
@@ -136,7 +136,7 @@ TEST_CASE("window: what is chosen in the panel is what the command's options are
   }
 }
 
-TEST_CASE("window: what makes no sense is refused in words, and nothing is done") {
+TEST_CASE("window: settings that make no sense are refused with a message, and nothing is done") {
   const TemporaryDirectory directory;
   const std::string path = directory / "two.msh";
   make_msh(path, 4.1, false, build_two_squares);
@@ -161,7 +161,7 @@ TEST_CASE("window: what makes no sense is refused in words, and nothing is done"
   CHECK(window.said("nowhere"));
 }
 
-TEST_CASE("window: a size factor meshes anew what the window has meshed") {
+TEST_CASE("window: a new size factor meshes again what the window has meshed") {
   const Plate plate;
   Window window({plate.path});
   window.press(action::kConvert);

@@ -36,7 +36,7 @@ TEST_CASE("window: a surface that cannot be converted is named, with the reason,
   CHECK(highlighted);
 }
 
-TEST_CASE("window: where nothing could be converted, no figure and no colour is that of a quad") {
+TEST_CASE("window: where nothing could be converted, there are no figures and no colours of quads") {
   const TemporaryDirectory directory;
   const std::string path = directory / "bad.msh";
   const Grid bad;

@@ -97,7 +97,7 @@ TEST_CASE("window: at each step triangles and quads cover the surface, and the f
   }
 }
 
-TEST_CASE("window: views show the colouring that is chosen, and go with the quads") {
+TEST_CASE("window: views show the colouring that is chosen, and vanish with the quads") {
   const Plate plate;
   Window window({plate.path});
   const auto views = [] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Gmsh's window with our panel, on a display that nobody sees: buttons are pressed, and the model is looked at.
+/// Gmsh's window with our panel, on a virtual display: tests press buttons and look at the model.
 
 #include <gmsh.h>
 
@@ -86,7 +86,7 @@ inline std::pair<std::size_t, std::size_t> counts() {
   return result;
 }
 
-/// What the command writes for these words.
+/// What the command writes for these arguments.
 inline std::string written(const std::string& words) {
   const TemporaryDirectory directory;
   const std::string out = directory / "command.msh";

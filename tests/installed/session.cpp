@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A program that runs the Gmsh API: qmorph::gmsh::recombine() where gmsh::model::mesh::recombine() stood.
+// A program that runs the Gmsh API: qmorph::gmsh::recombine() in the place of gmsh::model::mesh::recombine().
 #include <gmsh.h>
 #include <qmorph/gmsh.hpp>
 

@@ -68,7 +68,8 @@ TEST_CASE("find_defects: with geometry, a corner that is not convex, and where")
   CHECK(says(mesh, "near (", true));
 }
 
-TEST_CASE("find_defects: a straight corner of a quad is a defect, of the boundary of two triangles it is none") {
+TEST_CASE(
+    "find_defects: a straight corner of a quad is a defect, one where two triangles meet on the boundary is not") {
   Mesh mesh = drawn({{0, 0}, {1, 0}, {2, 0}, {1, 1}}, {{0, 1, 3}, {1, 2, 3}});
   CHECK(defect(mesh) == "");
   mesh.join_faces(edge(mesh, 1, 3));

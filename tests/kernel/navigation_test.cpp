@@ -34,7 +34,7 @@ TEST_CASE("navigation: around a node each edge comes once, counter-clockwise") {
   CHECK(targets(mesh, mesh.around_from(mesh.find(4, 2))) == std::vector<Index>{2, 3, 0, 1});
 }
 
-TEST_CASE("navigation: at the boundary the outside comes first, or the inside lies between the ends") {
+TEST_CASE("navigation: at a boundary node the outside comes first, or the inside lies between the two ends") {
   const Mesh mesh = fan_of_four();
   CHECK(mesh.face(*mesh.around(0).begin()) == kNone);
   CHECK(targets(mesh, mesh.around(0)) == std::vector<Index>{3, 1, 4});

@@ -96,7 +96,7 @@ TEST_CASE("commit keeps the edits, and frees what died for new elements") {
   CHECK(defect(mesh) == "");
 }
 
-TEST_CASE("edits that are committed are those that are made without a transaction, but for the numbers of elements") {
+TEST_CASE("committed edits are the same as edits without a transaction, apart from the numbers of elements") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     Rng rng(seed);
@@ -142,7 +142,7 @@ TEST_CASE("rollback takes back that a node was fixed") {
   CHECK_FALSE(mesh.is_fixed(4));
 }
 
-TEST_CASE("commits that are checked refuse elements that are not valid, and only those that were touched") {
+TEST_CASE("checked commits refuse elements that are invalid, and look only at those that were touched") {
   Mesh mesh = quad_grid(3, 3);
   mesh.set_point(5, {1.9, 1.9});  // not in a transaction: nobody looks
   mesh.check_commits(true);

@@ -11,6 +11,7 @@
 
 #include "qmorph/convert.hpp"
 #include "qmorph/observer.hpp"
+#include "support/draft.hpp"
 #include "support/invariants.hpp"
 
 namespace {
@@ -90,7 +91,7 @@ TEST_CASE("layers: squares and rectangles of 2 to 1 are no layers") {
       }
 }
 
-TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short cells is none") {
+TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short cells is no layer") {
   for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
     for (const double lean : {-1.0, 0.5, 1.0}) {
       const auto leaning = [&](double length) {
@@ -103,7 +104,7 @@ TEST_CASE("layers: a grid of long cells may lean by 45 degrees, and one of short
     }
 }
 
-TEST_CASE("layers: equilateral triangles are none, however they are stretched") {
+TEST_CASE("layers: equilateral triangles form none, however they are stretched") {
   for (const double stretch : {1.0, 5.0, 20.0}) {
     const auto place = [&](Index i, Index j) { return Vector3d(stretch * (i + 0.5 * j), 0.87 * j, 0); };
     CHECK(layer_quads(grid(20, 20, place, Diagonals::falling)) == 0);
@@ -133,6 +134,18 @@ TEST_CASE("layers: heights may grow, double and differ from column to column") {
   CHECK(whole_cells(grid(20, 6, place), 20, 6) == 120);
 }
 
+TEST_CASE("layers: round a sharp corner without a fan, the last cells of both walls slant to meet") {
+  constexpr double kHalf = 18 * std::numbers::pi / 180;  // of the wall's angle
+  const auto place = [](Index i, Index j) {
+    const double along = std::abs(double(i) - 4), side = i < 4 ? 1 : -1, height = 0.01 * (std::pow(1.5, j) - 1);
+    if (i == 4) return Vector3d(height, 0, 0);
+    return Vector3d(-along * std::cos(kHalf) + height * std::sin(kHalf),
+                    -side * (along * std::sin(kHalf) + height * std::cos(kHalf)), 0);
+  };
+  for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
+    CHECK(whole_cells(grid(8, 6, place, diagonals), 8, 6) == 48);
+}
+
 TEST_CASE("layers: a surface in space has its layers, flat or not") {
   const auto place = [](Index i, Index j) { return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j); };
   CHECK(whole_cells(grid(40, 8, place), 40, 8) == 320);
@@ -148,7 +161,7 @@ TEST_CASE("layers: a constraint is a wall on both sides, and no cell crosses it"
   CHECK(kept > 40);
 }
 
-TEST_CASE("layers: quads that are there already stay first") {
+TEST_CASE("layers: quads of the input stay first") {
   Patch patch = grid(10, 6, rectangles(10, 1));
   patch.triangles.erase(patch.triangles.begin(), patch.triangles.begin() + 20);
   for (Index i = 0; i < 10; ++i) patch.quads.push_back({i, i + 1, i + 12, i + 11});
@@ -202,7 +215,32 @@ TEST_CASE(
     const std::size_t cells = 8 * rows + 2 * spokes * (rows - 1), more = spokes % 2 == 1 ? 2 * (rows - 1) : 0;
     const std::size_t tips = spokes == 2 ? 0 : 2 * std::size_t((spokes + 1) / 2);  // in pairs, if not straight ones
     CHECK(report.layer_quads == cells + more + tips);
+    double least = 1;
+    for (std::size_t q = 0; q < report.layer_quads; ++q) {
+      std::array<Eigen::Vector2d, 4> corners;
+      for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.points[mesh.quads[q][i]].head<2>();
+      least = std::min(least, qmorph::test::smallest_sine(corners));
+    }
+    CHECK(least > 0.6);
   }
+}
+
+TEST_CASE("layers: where each row would end in a triangle, rows are not cut in two for it") {
+  constexpr Index kCells = 20, kRows = 16;
+  Patch patch = grid(
+      kCells, kRows, [](Index i, Index j) { return Vector3d(0.5 * i + j, j, 0); }, Diagonals::falling);
+  for (Index j = 0; j < kRows; ++j) {  // beside the last column, four triangles around a node
+    const Index a = j * (kCells + 1) + kCells, d = a + kCells + 1;
+    const Vector3d p = patch.points[a], q = patch.points[d], right(1.5, 0, 0);
+    if (j == 0) patch.points.push_back(p + right);
+    const Index b = Index(patch.points.size() - 1);
+    patch.points.insert(patch.points.end(), {(p + q + right) / 2, q + right});
+    patch.triangles.insert(patch.triangles.end(), {{a, b, b + 1}, {b, b + 2, b + 1}, {b + 2, d, b + 1}, {d, a, b + 1}});
+  }
+  const auto [mesh, report] = qmorph::convert(patch);
+  const auto broken = qmorph::test::broken_invariants(patch, mesh);
+  CHECK_MESSAGE(broken.empty(), broken.front());
+  CHECK(2 * mesh.quads.size() < patch.triangles.size() + patch.triangles.size() / 4);
 }
 
 TEST_CASE("layers: of one row with four nodes more on one side, two stretches between two of these are lost at most") {
@@ -228,7 +266,18 @@ TEST_CASE("layers: of one row with four nodes more on one side, two stretches be
   CHECK(report.layer_quads >= kCells - 2 * 12);
 }
 
-TEST_CASE("layers: without the option there are none") {
+TEST_CASE("layers: where a row is no layer after all, the cell that it ends in is none either") {
+  // Eight cells between two walls, and one more below a triangle, in a tip that is too large to be all cells.
+  Patch patch = grid(9, 1, rectangles(4, 1));
+  const Index a = 9, b = 18, c = 19;  // the lower right corner, and the upper side of the last cell
+  const Index peak = Index(patch.points.size()), tip = peak + 1;
+  patch.points.emplace_back(36, 1.6, 0);
+  patch.points.emplace_back(40, 0.3, 0);
+  patch.triangles.insert(patch.triangles.end(), {{b, c, peak}, {a, tip, c}, {c, tip, peak}});
+  CHECK(layer_quads(patch) == 0);
+}
+
+TEST_CASE("layers: without the option none are found") {
   const Patch patch = grid(8, 6, rectangles(10, 1));
   qmorph::Options options;
   options.layers = false;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A page in Debian's chromium without a window, driven by selenium; what it says on its console and asks of the network.
+"""A page in Debian's chromium without a window, driven by selenium, with its console messages and network requests.
 
 Exits with 77, which ctest calls skipped, where chromium or selenium is not installed (tools/setup --tests installs them).
 """
@@ -60,7 +60,7 @@ class Browser:
         return value
 
     def rest(self):
-        """Until what has moved is painted in full: the machine may be busy."""
+        """Waits until the page is painted in full after a movement: the machine may be busy."""
         self.run("const q = window.qmorph, views = q ? (q.view ? [q.view] : Object.values(q.panes).map((pane) => pane.view)) : [];"
                  "do await new Promise((resolve) => setTimeout(resolve, 50)); while (!views.every((view) => view.settled));")
 
@@ -106,7 +106,7 @@ class Browser:
 
 
 class Checks:
-    """Counts what holds, says what does not."""
+    """Counts the checks that hold, and prints those that do not."""
 
     def __init__(self):
         self.failed = 0

@@ -27,7 +27,7 @@ TEST_CASE("side by side: every index once, with any number of threads, also insi
   for_each_index(0, [](std::size_t) { FAIL("nothing to do"); });
 }
 
-TEST_CASE("side by side: of several exceptions the one of the lowest index comes out, and all the rest is done") {
+TEST_CASE("side by side: of several exceptions the one with the lowest index is thrown, after all other work is done") {
   std::atomic<int> done = 0;
   std::string message;
   try {

@@ -49,7 +49,8 @@ TEST_CASE("threads: regions and a surface of several blocks have the same bytes 
   }
 }
 
-TEST_CASE("threads: several surfaces at once become what each becomes alone, and a bad one harms no other") {
+TEST_CASE(
+    "threads: surfaces converted together become what each becomes alone, and a bad one does not harm the others") {
   std::vector<Patch> patches;
   for (std::uint64_t seed = 0; seed < 6; ++seed) patches.push_back(random_domain(seed).patch);
   patches[2].points[0].x() = std::nan("");

@@ -176,7 +176,7 @@ TEST_CASE("intervals: what is even already stays as it is") {
   CHECK(std::all_of(plan.segments.begin(), plan.segments.end(), [](int n) { return n == 11; }));
 }
 
-TEST_CASE("intervals: an edge of one segment is not halved where a longer one will do") {
+TEST_CASE("intervals: an edge of one segment is not halved where a longer curve will do") {
   IntervalProblem problem;
   problem.curves = {wish_for(0.7), wish_for(7.2), wish_for(30.4), wish_for(2.9)};  // 1 + 8 + 31 + 3
   problem.surfaces = {{0, 1, 2, 3}};
@@ -184,7 +184,20 @@ TEST_CASE("intervals: an edge of one segment is not halved where a longer one wi
   CHECK(plan.segments == std::vector<int>{1, 8, 30, 3});
 }
 
-TEST_CASE("intervals: both sides of a thin ring, and of rings around it, get as many as each other") {
+TEST_CASE("intervals: of two curves the one that counts for less changes") {
+  for (const Index heavy : {0, 1}) {
+    IntervalProblem problem;
+    problem.curves = {wish_for(10.5), wish_for(9.5)};  // 11 + 10
+    problem.curves[heavy].weight = 4;
+    problem.surfaces = {{0, 1}};
+    const IntervalPlan plan = plan_intervals(problem);
+    CAPTURE(heavy);
+    CHECK(plan.odd.empty());
+    CHECK(plan.segments[heavy] == problem.curves[heavy].segments);
+  }
+}
+
+TEST_CASE("intervals: both sides of a thin ring, and of rings around it, get the same number") {
   // Rings between circles, each of which is one curve; the innermost circle is around a disc.
   for (const int rings : {1, 2, 5}) {
     IntervalProblem problem;
@@ -235,7 +248,7 @@ TEST_CASE("intervals: sides of several curves get the same sums, and keep them w
   CHECK(fitting == bands);
 }
 
-TEST_CASE("intervals: images stay alike, whatever lies between them") {
+TEST_CASE("intervals: periodic images keep equal numbers, whatever lies between them") {
   Rng rng(5);
   for (int trial = 0; trial < 200; ++trial) {
     CAPTURE(trial);

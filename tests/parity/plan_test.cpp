@@ -76,7 +76,7 @@ std::pair<std::size_t, std::size_t> fewest_by_trial(const std::vector<bool>& odd
 
 }  // namespace
 
-TEST_CASE("matching: costs as little as the best of all matchings") {
+TEST_CASE("matching: the cost is that of the best of all matchings") {
   Rng rng(1);
   for (int trial = 0; trial < 3000; ++trial) {
     CAPTURE(trial);
@@ -123,14 +123,14 @@ TEST_CASE("plan: neighbours share one split, and one alone goes to the outside b
   CHECK(plan_splits({false, false, false}, links).splits.empty());
 }
 
-TEST_CASE("plan: long edges are preferred, but never for one split more") {
+TEST_CASE("plan: long edges are preferred, but never at the price of another split") {
   const std::vector<Link> links = {{0, 1, 0.001}, {0, 2, 10}, {2, 1, 10}, {0, 3, 1}, {3, 1, 1}};
   CHECK(plan_splits({true, true, false, false}, links).splits == std::vector<Index>{0});
   const std::vector<Link> detours(links.begin() + 1, links.end());
   CHECK(plan_splits({true, true, false, false}, detours).splits == std::vector<Index>{0, 1});
 }
 
-TEST_CASE("plan: edges that go together count each") {
+TEST_CASE("plan: edges that are split together are counted one by one") {
   const std::vector<Link> links = {{0, 1, 5, 3}, {0, 2, 1}, {2, 1, 1}, {0, kOutside, 9, 2}};
   CHECK(plan_splits({true, true, false}, links).splits == std::vector<Index>{1, 2});
   CHECK(plan_splits({true, false, false}, links).splits == std::vector<Index>{3});
@@ -166,7 +166,7 @@ TEST_CASE("plan: as few splits as the best of all sets of links, on random graph
   }
 }
 
-TEST_CASE("plan: edges that three regions share are split where they make all even, on random models") {
+TEST_CASE("plan: edges that three regions share are split where that makes all regions even, on random models") {
   Rng rng(7);
   int solved = 0, in_vain = 0;
   for (int trial = 0; trial < 500; ++trial) {

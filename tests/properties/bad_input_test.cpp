@@ -86,6 +86,11 @@ TEST_CASE("patches that are refused with SurfaceError") {
   SUBCASE("a triangle twice") { patch.triangles.push_back(patch.triangles[0]); }
   SUBCASE("a node number that does not exist") { patch.triangles[0][1] = 9; }
   SUBCASE("a triangle with a node twice") { patch.triangles[0] = {0, 1, 1}; }
+  SUBCASE("a triangle over others, with two of their nodes") {
+    patch.points.emplace_back(1.8, 1, 0);
+    patch.triangles.push_back({3, 9, 5});  // from node 3 over node 4; its sides touch those of others, and cross none
+    patch.points[5] = {2, 1.2, 0};
+  }
   SUBCASE("a node that is covered twice") {  // a fan of 720 degrees
     patch = {};
     patch.points.emplace_back(0, 0, 0);

@@ -97,7 +97,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("random domains: those that once were refused, or took very long, convert") {
+TEST_CASE("random domains: those that were once refused, or took very long, convert") {
   for (const std::uint64_t seed : {1144, 1526, 3827, 4193, 5229, 5282, 9161}) {
     const auto broken = broken_conversion(random_domain(seed).patch, nullptr, options_for(seed));
     CAPTURE(seed);
@@ -105,7 +105,7 @@ TEST_CASE("random domains: those that once were refused, or took very long, conv
   }
 }
 
-TEST_CASE("random domains: a try of other constants that goes astray is given up") {
+TEST_CASE("random domains: a try of other constants that goes wrong is given up") {
   const auto broken = broken_conversion(random_domain(5308).patch);  // took more than 20 s once
   CHECK_MESSAGE(broken.empty(), broken.front());
 }
@@ -123,7 +123,7 @@ TEST_CASE("random domains: two conversions of one patch are the same, byte for b
   }
 }
 
-TEST_CASE("random domains: each operation of each stage leaves valid elements, and to look changes nothing") {
+TEST_CASE("random domains: each operation of each stage leaves valid elements, and checking that changes nothing") {
   for (std::uint64_t seed = 0; seed < seeds(100); ++seed) {
     const Patch patch = random_domain(seed).patch;
     QuadMesh plain;

@@ -77,6 +77,18 @@ double smallest_sine(const QuadMesh& mesh, const Quad& quad) {
   return qmorph::test::smallest_sine(corners);
 }
 
+/// Nodes of layers that are not where they were. Where no more than three quads meet, as at the tips of fans, they may
+/// have gone outwards.
+std::size_t count_moved(const QuadMesh& mesh, std::size_t layer_quads, const qmorph::Patch& patch) {
+  std::map<Index, std::size_t> quads_at;
+  for (std::size_t q = 0; q < layer_quads; ++q)
+    for (Index v : mesh.quads[q]) ++quads_at[v];
+  std::size_t count = 0;
+  for (const auto& [v, quads] : quads_at)
+    count += quads != 3 && mesh.source[v] != kNone && mesh.points[v] != patch.points[mesh.source[v]];
+  return count;
+}
+
 }  // namespace
 
 TEST_CASE("layers: 300 random domains keep every row, and what is between layers becomes good quads") {
@@ -118,7 +130,7 @@ TEST_CASE("layers: 300 random domains keep every row, and what is between layers
   CHECK(double(domains_with_cuts) < 0.4 * double(seeds(300)));
 }
 
-TEST_CASE("layers: nodes of layers stay where they are, in any position in space") {
+TEST_CASE("layers: nodes of layers stay where they are but at tips, in any position in space") {
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
     qmorph::test::Rng rng(~seed);
@@ -129,15 +141,11 @@ TEST_CASE("layers: nodes of layers stay where they are, in any position in space
     CAPTURE(seed);
     CAPTURE(domain.kind);
     CHECK(report.layer_quads == flat.layer_quads);
-    std::size_t elsewhere = 0;
-    for (std::size_t q = 0; q < report.layer_quads; ++q)
-      for (Index v : mesh.quads[q])
-        elsewhere += mesh.source[v] != kNone && mesh.points[v] != moved.points[mesh.source[v]];
-    CHECK(elsewhere == 0);
+    CHECK(count_moved(mesh, report.layer_quads, moved) == 0);
   }
 }
 
-TEST_CASE("layers: on a cylinder they are as on the plane that is rolled up, and so is what is between them") {
+TEST_CASE("layers: on a cylinder they are those of the plane that was rolled up, and so is what lies between them") {
   std::size_t flat_quads = 0, quads = 0;
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
@@ -149,11 +157,7 @@ TEST_CASE("layers: on a cylinder they are as on the plane that is rolled up, and
     CAPTURE(domain.kind);
     CHECK(report.layer_quads == flat.report.layer_quads);
     CHECK(mesh.triangles.size() == flat.mesh.triangles.size());
-    std::size_t elsewhere = 0;
-    for (std::size_t q = 0; q < report.layer_quads; ++q)
-      for (Index v : mesh.quads[q])
-        elsewhere += mesh.source[v] != kNone && mesh.points[v] != rolled.points[mesh.source[v]];
-    CHECK(elsewhere == 0);
+    CHECK(count_moved(mesh, report.layer_quads, rolled) == 0);
     QuadMesh unrolled = mesh;
     for (Eigen::Vector3d& p : unrolled.points) p = {std::atan2(p.x(), p.z()), p.y(), 0};
     double least = 1;
@@ -189,7 +193,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("layers: ordinary random domains have hardly any") {
+TEST_CASE("layers: ordinary random domains have almost none") {
   std::size_t triangles = 0, layer_quads = 0;
   for (std::uint64_t seed = 0; seed < seeds(200, 60); ++seed) {
     const auto patch = qmorph::test::random_domain(seed).patch;
@@ -201,7 +205,7 @@ TEST_CASE("layers: ordinary random domains have hardly any") {
   CHECK(double(layer_quads) < 0.02 * double(triangles));  // strips and ribbons are among them
 }
 
-TEST_CASE("stretched triangles: what is no layer becomes quads of the same sizes, as stretched as the triangles") {
+TEST_CASE("stretched triangles: outside of layers they become quads of the same sizes, as stretched as the triangles") {
   std::size_t flat_quads = 0, quads = 0, flat_kept = 0, kept = 0;
   const auto is_kept = [](const qmorph::Patch& before, const QuadMesh& after) {
     return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <=

@@ -44,7 +44,7 @@ struct Pool {
 
 }  // namespace
 
-TEST_CASE("Regions of a few triangles on a surface, where the first try is doubtful or not valid, have other tries") {
+TEST_CASE("random surfaces: regions of a few triangles get more tries if the first is doubtful or not valid") {
   for (const std::uint64_t seed : {1716u, 4993u, 5596u}) {  // few are so small and so bent
     const Domain domain = random_surface(seed);
     CAPTURE(domain.kind);
@@ -69,7 +69,7 @@ TEST_CASE("1000 random surfaces convert without breaking an invariant") {
   }
 }
 
-TEST_CASE("1000 random domains rolled onto cylinders and cones are worth what they are in the plane") {
+TEST_CASE("1000 random domains rolled onto cylinders and cones come out as well as in the plane") {
   Pool flat, bent;
   std::size_t refused = 0;  // slivers between three nodes of a line turn over where the line is bent
   for (std::uint64_t seed = 0; seed < seeds(1000); ++seed) {
@@ -90,7 +90,7 @@ TEST_CASE("1000 random domains rolled onto cylinders and cones are worth what th
   CHECK(100 * refused <= seeds(1000) + 99);
   CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
   CHECK(double(bent.quads) == doctest::Approx(double(flat.quads)).epsilon(0.02));
-  // A single domain says little: what few of them may differ by besides.
+  // A single domain says little: a further margin for when there are few.
   const double scatter = 0.004 * std::max(0.0, std::sqrt(1000 / double(seeds(1000))) - 1);
   CHECK(bent.share() <= flat.share() * 1.02 + scatter);
 }

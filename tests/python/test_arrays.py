@@ -29,7 +29,7 @@ def plate(columns, rows):
 
 
 def rough(columns, rows):
-    """A plate whose triangles are no halves of squares."""
+    """A plate whose triangles are not halves of squares."""
     points, triangles = plate(columns, rows)
     inner = (points[:, 0] > 0) & (points[:, 0] < columns) & (points[:, 1] > 0) & (points[:, 1] < rows)
     points[inner] += np.random.default_rng(1).uniform(-0.2, 0.2, points.shape)[inner]
@@ -219,7 +219,7 @@ class Work(unittest.TestCase):
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
             qmorph.convert(*rough(1000, 500))
-            time.sleep(1)  # a machine that was faster than the timer
+            time.sleep(1)  # in case the machine was faster than the timer
         timer.join()
 
     def test_other_threads_run_meanwhile_and_convert_at_once(self):

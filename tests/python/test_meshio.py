@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""import qmorph.meshio: meshes of meshio, with what they carry."""
+"""import qmorph.meshio: meshes of meshio, with their data."""
 import sys
 import unittest
 
@@ -79,7 +79,7 @@ class Meshio(unittest.TestCase):
         before = two_materials()
         after = qmorph.meshio.convert(before)
 
-        def edges(mesh, cells):  # by their places: nodes that nothing uses any more have gone
+        def edges(mesh, cells):  # by their places: nodes that are no longer used have been removed
             places = [tuple(point) for point in mesh.points]
             return {tuple(sorted((places[c[k]], places[c[k - 1]]))) for c in cells for k in range(len(c))}
 

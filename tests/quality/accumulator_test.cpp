@@ -74,7 +74,7 @@ TEST_CASE("measure: squares are perfect, seen from the right side") {
   CHECK(behind.angle_min_deg == doctest::Approx(270));
 }
 
-TEST_CASE("measure: without a normal, a bad element of a plane is found") {
+TEST_CASE("measure: a bad element in a plane is found even without a normal") {
   QuadMesh mesh = cut_squares();
   SUBCASE("upside down") { mesh.quads[2] = {6, 7, 4, 3}; }
   SUBCASE("a chevron") {
@@ -103,7 +103,7 @@ TEST_CASE("measure: an empty mesh and a mesh of triangles have no bad figures") 
   CHECK(q.inverted == 0);
 }
 
-TEST_CASE("accumulator: percentiles are numpy's, over all surfaces together") {
+TEST_CASE("accumulator: percentiles are those of NumPy, over all surfaces together") {
   // Parallelograms of 1 to 41 degrees in two surfaces; p5 is rank 2 (3 degrees), p1 lies 0.4 of the way from the first
   // to the second.
   qmorph::QualityAccumulator accumulator;
@@ -130,7 +130,7 @@ TEST_CASE("accumulator: percentiles are numpy's, over all surfaces together") {
   CHECK(q.angle_max_deg == doctest::Approx(179));
 }
 
-TEST_CASE("accumulators: two together are one that saw both meshes") {
+TEST_CASE("accumulators: two that are added up are like one that saw both meshes") {
   const QuadMesh first = cut_squares();
   QuadMesh second = first;
   for (std::size_t i = 0; i < second.points.size(); ++i) second.points[i].x() += 0.3 * second.points[i].y();

@@ -44,7 +44,7 @@ TEST_CASE("certificate: good quads need none") {
   CHECK(explain(grid.patch, grid.mesh).empty());
 }
 
-TEST_CASE("certificate: a poor quad in the open is ours, with its place and figure") {
+TEST_CASE("certificate: a poor quad far from any constraint is our fault, and has a place and a figure") {
   Grid grid;
   grid.mesh.points[11 * 5 + 5] = Vector3d(5.93, 5.93, 0);  // nearly on the diagonal of a quad
   const auto poor = explain(grid.patch, grid.mesh);
@@ -71,7 +71,45 @@ TEST_CASE("certificate: a corner of the boundary that is too sharp, and only one
   }
 }
 
-TEST_CASE("certificate: a quad that is alone between four kept edges, though no corner is too sharp") {
+TEST_CASE("certificate: a sharp corner is one though it is parted between two quads") {
+  const double degrees = 10, half = degrees * std::numbers::pi / 360, x = std::cos(half), y = std::sin(half);
+  QuadMesh mesh;
+  mesh.points = {{0, 0, 0}, {x, -y, 0}, {1.5, -0.1, 0}, {1, 0, 0}, {1.5, 0.1, 0}, {x, y, 0}};
+  mesh.quads = {{0, 1, 2, 3}, {0, 3, 4, 5}};
+  mesh.source = {0, 1, 2, 3, 4, 5};
+  Patch patch;
+  patch.points = mesh.points;
+  patch.triangles = {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}};
+  const auto poor = explain(patch, mesh);
+  CHECK(poor.size() == 2);
+  for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::boundary_angle);
+}
+
+TEST_CASE("certificate: a crease is an edge that is kept") {
+  // Two flat kites of 10 degrees, folded by a right angle along an edge that ends in both their tips.
+  const double half = 5 * std::numbers::pi / 180, x = std::cos(half), y = std::sin(half);
+  const Vector3d along(x, y, 0), across(0, 0, 1);
+  const auto folded = [&](const Vector3d& p) -> Vector3d {  // mirrored at the fold, and turned up around it
+    const Vector3d foot = p.dot(along) * along;
+    return foot + (p - foot).norm() * across;
+  };
+  Patch patch;
+  patch.points = {{0, 0, 0}, {x, -y, 0}, {1 / x, 0, 0}, {x, y, 0}};
+  patch.points.push_back(folded(patch.points[2])), patch.points.push_back(folded(patch.points[1]));
+  patch.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+  QuadMesh mesh;
+  mesh.points = patch.points;
+  mesh.source = {0, 1, 2, 3, 4, 5};
+  mesh.quads = {{0, 1, 2, 3}, {0, 3, 4, 5}};
+  const std::vector<double> figures(2, y);
+  const auto with_crease = explain_poor_quads(patch, mesh, figures);
+  REQUIRE(with_crease.size() == 2);
+  for (const PoorQuad& quad : with_crease) CHECK(quad.reason == PoorBecause::boundary_angle);
+  for (const PoorQuad& quad : explain_poor_quads(patch, mesh, figures, std::numbers::pi))
+    CHECK(quad.reason != PoorBecause::boundary_angle);
+}
+
+TEST_CASE("certificate: a quad between four kept edges, even where no corner is too sharp") {
   Patch patch;
   patch.points = {{0, 0, 0}, {1, -0.9, 0}, {2, 0, 0}, {1, 0.05, 0}};  // nearly straight at the last one
   patch.triangles = {{0, 1, 3}, {1, 2, 3}};
@@ -103,7 +141,47 @@ TEST_CASE("certificate: a narrow strip whose nodes do not face each other") {
   for (const PoorQuad& quad : poor) CHECK(quad.reason != PoorBecause::nothing);
 }
 
-TEST_CASE("certificate: lines that are kept count as boundaries do") {
+TEST_CASE("certificate: a narrow strip whose nodes face each other forces nothing") {
+  // A ladder, 0.1 wide, but that its quads have been cut askew: from node i below to node i + 1 above.
+  QuadMesh mesh;
+  for (const double y : {0.0, 0.1})
+    for (int i = 0; i <= 6; ++i) mesh.points.emplace_back(i, y, 0);
+  for (Index i = 0; i < 5; ++i) mesh.quads.push_back({i, i + 1, i + 9, i + 8});
+  mesh.triangles = {{0, 8, 7}, {5, 6, 13}};
+  for (Index i = 0; i < mesh.points.size(); ++i) mesh.source.push_back(i);
+  Patch patch;
+  patch.points = mesh.points;
+  for (Index i = 0; i < 6; ++i) patch.triangles.insert(patch.triangles.end(), {{i, i + 1, i + 8}, {i, i + 8, i + 7}});
+  for (const PoorQuad& quad : explain(patch, mesh)) {
+    CAPTURE(quad.quad);
+    const bool is_at_end = quad.quad == 0 || quad.quad == 4;
+    CHECK(quad.reason == (is_at_end ? PoorBecause::odd_region : PoorBecause::nothing));
+  }
+}
+
+TEST_CASE("certificate: beside a long kept edge the second row of elements is in its way, too") {
+  // A lens over one edge of length 10; its other side has ten edges. Two rows of elements between them.
+  QuadMesh mesh;
+  const auto height = [](int i) { return 0.1 * i * (10 - i) / 2.5; };
+  for (int i = 0; i <= 10; ++i) mesh.points.emplace_back(i, height(i), 0);
+  for (int i = 2; i <= 8; ++i) mesh.points.emplace_back(i, height(i) / 2, 0);  // rows 11 to 17
+  for (Index i = 2; i < 8; ++i) mesh.quads.push_back({9 + i, 10 + i, i + 1, i});
+  mesh.quads.push_back({0, 11, 2, 1});
+  mesh.quads.push_back({17, 10, 9, 8});
+  for (Index i = 11; i < 17; ++i) mesh.triangles.push_back({0, i + 1, i});
+  mesh.triangles.push_back({0, 10, 17});
+  for (Index i = 0; i < mesh.points.size(); ++i) mesh.source.push_back(i <= 10 ? i : kNone);
+  Patch patch;
+  patch.points.assign(mesh.points.begin(), mesh.points.begin() + 11);
+  for (Index i = 1; i < 10; ++i) patch.triangles.push_back({0, i + 1, i});
+  std::vector<double> figures(mesh.quads.size(), 1);
+  figures[3] = 0.2;  // as if it were poor: in the middle
+  const auto poor = explain_poor_quads(patch, mesh, figures);
+  REQUIRE(poor.size() == 1);
+  CHECK(poor[0].reason == PoorBecause::narrow);
+}
+
+TEST_CASE("certificate: lines that are kept count as boundaries") {
   Grid grid;
   for (Index i = 0; i < 10; ++i) grid.patch.constraints.push_back({11 * 5 + i, 11 * 5 + i + 1});
   for (int i = 0; i <= 10; ++i) {  // the row above comes near to the line, and half a step aside
@@ -133,7 +211,7 @@ TEST_CASE("certificate: beside the triangle of an odd region") {
   for (const PoorQuad& quad : poor) CHECK(quad.reason == PoorBecause::odd_region);
 }
 
-TEST_CASE("certificate: quads of the input are the input's") {
+TEST_CASE("certificate: quads of the input are the input's responsibility") {
   Grid grid;
   grid.mesh.points[11 * 5 + 5] = grid.patch.points[11 * 5 + 5] = Vector3d(5.93, 5.93, 0);
   grid.patch.quads = grid.mesh.quads;

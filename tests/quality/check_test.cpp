@@ -114,7 +114,7 @@ TEST_CASE("check: area out of the plane") {
   CHECK(mentions(defect_after([](Case& c) { c.mesh.points[4].z() += 0.1; }), "area"));
 }
 
-TEST_CASE("check: quads that were there come first and as they were") {
+TEST_CASE("check: quads of the input come first, unchanged") {
   CHECK(defect_after([](Case& c) {
           c.patch.quads = {c.mesh.quads[3]};
           c.patch.triangles.resize(6);

@@ -44,7 +44,7 @@ DirectedSize compare(const Patch& before, Index n, double length, double height)
 
 }  // namespace
 
-TEST_CASE("directed sizes: rectangles in the place of their halves are as long, however flat they are") {
+TEST_CASE("directed sizes: rectangles are as long as the triangles that they were made of, however flat they are") {
   for (const double length : {1.0, 5.0, 1e2, 1e4}) {
     const DirectedSize size = compare(triangles(40, length, 1), 40, length, 1);
     CAPTURE(length);
@@ -53,7 +53,7 @@ TEST_CASE("directed sizes: rectangles in the place of their halves are as long, 
   }
 }
 
-TEST_CASE("directed sizes: what is lost across the stretch only is seen as such") {
+TEST_CASE("directed sizes: a loss across the stretch alone is seen as such") {
   const DirectedSize size = compare(triangles(40, 20, 1), 10, 80, 4);
   CHECK(size.along == doctest::Approx(4).epsilon(0.02));
   CHECK(size.across == doctest::Approx(4).epsilon(0.02));
@@ -64,7 +64,8 @@ TEST_CASE("directed sizes: what is lost across the stretch only is seen as such"
   CHECK(qmorph::largest_ratio({0.25, 1.1}) == doctest::Approx(4));
 }
 
-TEST_CASE("directed sizes: of ten thousand triangles a few hundred tell, and nothing has no size") {
+TEST_CASE(
+    "directed sizes: a sample of a few hundred of ten thousand triangles is enough, and an empty mesh has no size") {
   const Patch patch = triangles(80, 3, 1);
   auto after = nodes<qmorph::QuadMesh>(80, 3, 1);
   CHECK(qmorph::directed_sizes(patch, after.points, {}).empty());

@@ -43,7 +43,7 @@ qmorph::QuadMesh squares(Index n, double growth) {
 
 }  // namespace
 
-TEST_CASE("sizes: quads on the triangles' nodes are as long as the triangles, graded or not") {
+TEST_CASE("sizes: quads on the triangles' nodes have the triangles' size, graded or not") {
   for (const double growth : {1.02, 1.2}) {
     std::vector<double> ratios = qmorph::size_ratios(triangles(20, growth), squares(20, growth));
     CHECK(ratios.size() == 2 * 20 * 19);
@@ -51,12 +51,12 @@ TEST_CASE("sizes: quads on the triangles' nodes are as long as the triangles, gr
   }
 }
 
-TEST_CASE("sizes: quads twice as long are seen as such") {
+TEST_CASE("sizes: quads twice as large are seen as such") {
   std::vector<double> ratios = qmorph::size_ratios(triangles(40, 1.02), squares(20, 1.02 * 1.02));
   CHECK(qmorph::percentile(ratios, 50) == doctest::Approx(2).epsilon(0.1));
 }
 
-TEST_CASE("sizes: one triangle has no inner edge, and nothing has no size") {
+TEST_CASE("sizes: one triangle has no inner edge, and an empty mesh has no size") {
   qmorph::QuadMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};

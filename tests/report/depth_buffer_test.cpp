@@ -61,7 +61,7 @@ std::optional<double> depth_at(const Faces& all, std::size_t f, double x, double
 
 }  // namespace
 
-TEST_CASE("depth buffer: painted in its order, places show the face that is in front") {
+TEST_CASE("depth buffer: painting in its order shows the face that is in front everywhere") {
   int places = 0, wrong = 0, bright = 0, left_out = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     test::Rng rng(seed);
@@ -100,7 +100,7 @@ TEST_CASE("depth buffer: painted in its order, places show the face that is in f
   CHECK(left_out > 1000);
 }
 
-TEST_CASE("depth buffer: of a globe the side towards the eye is seen") {
+TEST_CASE("depth buffer: only the side of a globe towards the eye is seen") {
   Faces globe;
   add_globe(globe, {10, 10, 0}, 10, 24);
   const auto order = DepthBuffer(globe.points, globe.faces).back_to_front();
@@ -126,7 +126,7 @@ TEST_CASE("viewpoint: axes and directions by name") {
   }
 }
 
-TEST_CASE("viewpoint: what is towards the eye is in front, and up stays up") {
+TEST_CASE("viewpoint: what is nearer to the eye is in front, and up stays up") {
   test::Rng rng(5);
   Frame frame;  // of a scene in space: up is z
   frame.flat = false;

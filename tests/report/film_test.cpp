@@ -138,7 +138,7 @@ TEST_CASE("film: played to its end it is the mesh that the front made, to a frac
   CHECK(quads > 500);
 }
 
-TEST_CASE("film: nodes of a curved surface have their places on it, those of a plane need none") {
+TEST_CASE("film: nodes of a curved surface have positions on it, those of a plane need none") {
   struct Places : Observer {
     std::size_t nodes = 0, curved = 0;
     double least = 1, most = 1;  // distances from the middle of a sphere

@@ -80,7 +80,7 @@ TEST_CASE("scene: nodes inside with three and five edges are marked, those of th
   CHECK(figures.irregular[0].valence == 3);
 }
 
-TEST_CASE("scene: the frame is the model's x and y where it can be, and any plane is flat in its own") {
+TEST_CASE("scene: the frame is the model's x and y where possible, and every plane is flat in its own frame") {
   const Frame plain = find_frame(triangle_and_quad(0));
   CHECK(plain.flat);
   CHECK(plain.right == Eigen::Vector3d(1, 0, 0));
@@ -106,7 +106,7 @@ TEST_CASE("blob: base64, and arrays where the table says") {
   CHECK(blob.add_tags(std::vector<std::size_t>{std::size_t(1) << 33})["type"] == "f64");
 }
 
-TEST_CASE("page: words of a command are quoted as a shell needs it") {
+TEST_CASE("page: the words of a command are quoted for the shell") {
   CHECK(shell_word("plate.msh") == "plate.msh");
   CHECK(shell_word("my plate.msh") == "'my plate.msh'");
   CHECK(shell_word("it's") == "'it'\\''s'");

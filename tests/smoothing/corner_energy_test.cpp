@@ -30,7 +30,7 @@ Mesh jittered_quads(Rng& rng) {
 
 }  // namespace
 
-TEST_CASE("raise corners: a node that was pushed aside comes back, and the worst corner is a good one then") {
+TEST_CASE("raise corners: a node that was pushed aside comes back, and the worst corner is then a good one") {
   Mesh mesh = quad_grid(4, 4);
   mesh.set_point(12, Vec2(2.45, 2.4));
   REQUIRE(worst_sine(mesh) < 0.5);
@@ -71,7 +71,7 @@ TEST_CASE("raise corners: good corners stay as they are, to the bit") {
   CHECK_FALSE(snapshot(mesh) == before);
 }
 
-TEST_CASE("raise corners: an element that is turned over makes no node move to where others are worse") {
+TEST_CASE("raise corners: an inverted element makes no node move to where others get worse") {
   Mesh mesh = quad_grid(4, 4);
   mesh.set_point(12, Vec2(3.4, 2.2));
   const double before = worst_sine(mesh);

@@ -64,7 +64,7 @@ TEST_CASE("snap to grid: a mesh that is no grid is left alone, to the bit") {
   }
 }
 
-TEST_CASE("snap to grid: where a notch in a side would go on through all rows, smoothed nodes stay as they are") {
+TEST_CASE("snap to grid: where a notch in a side would be carried through all rows, smoothed nodes stay as they are") {
   Mesh mesh = quad_grid(8, 4);
   mesh.set_point(4, Vec2(4, 0.6));
   smoothing::smooth(mesh, {});

@@ -114,7 +114,7 @@ TEST_CASE("energy: first and second derivatives are those of the value, by finit
   CHECK(checked > 500);
 }
 
-TEST_CASE("energy: regularised it tends to the plain one as delta goes to zero") {
+TEST_CASE("energy: the regularised one tends to the plain one as delta goes to zero") {
   Rng rng(3);
   const Mesh mesh = random_mixed_mesh(rng);
   for (const Index v : free_nodes(mesh))
@@ -200,7 +200,7 @@ TEST_CASE("smooth_near untangles neighbours together, where each alone is held b
   CHECK(defect(mesh) == "");
 }
 
-TEST_CASE("smooth_near says so where nothing helps") {
+TEST_CASE("smooth_near reports failure where nothing helps") {
   //  A chevron whose nodes are all on the boundary.
   Mesh mesh = drawn({{0, 0}, {3, 0}, {0.5, 0.5}, {0, 3}}, {{0, 1, 2, 3}});
   const std::vector<Index> nodes = {0, 1, 2, 3};
@@ -243,7 +243,7 @@ TEST_CASE("untangle_node makes a star valid from anywhere if any position does")
   CHECK(untangled > 200);
 }
 
-TEST_CASE("untangle_node leaves no better place, in fans of many elements neither") {
+TEST_CASE("untangle_node leaves no better place, not even in fans of many elements") {
   // Of the corners that depend on v.
   const auto smallest_area = [](const Mesh& mesh, Index v) {
     double least = 1e300;
@@ -264,7 +264,7 @@ TEST_CASE("untangle_node leaves no better place, in fans of many elements neithe
     std::vector<Vec2> points{Vec2(rng.between(-2, 2), rng.between(-2, 2))};
     std::vector<std::array<Index, 3>> triangles;
     for (Index i = 0; i < count; ++i) {
-      // As regular as can be at times: then more than three areas are equal at the best place.
+      // Sometimes as regular as can be: then more than three areas are equal at the best place.
       const double turn = 2 * std::numbers::pi * double(i) / double(count),
                    radius = seed % 3 == 0 ? 1 : rng.between(0.5, 2);
       points.emplace_back(radius * std::cos(turn), radius * std::sin(turn));
@@ -308,7 +308,7 @@ TEST_CASE("raise_smallest_sine never lowers the smallest sine, and raises a smal
   CHECK_FALSE(raise_smallest_sine(mesh, 0, work));
 }
 
-TEST_CASE("no node movement makes a valid element invalid, however near it is to that") {
+TEST_CASE("no move of a node makes a valid element invalid, however close to invalid it is") {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
     Rng rng(seed);

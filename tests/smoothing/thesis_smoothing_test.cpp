@@ -100,7 +100,7 @@ TEST_CASE("constrained Laplacian: the rule of acceptance") {
   CHECK(is_acceptable({4, 1, 3, 0, 0, -0.06, 2, false}, generous));
 }
 
-TEST_CASE("constrained Laplacian: a node comes back to the middle; fixed ones and short ways are left") {
+TEST_CASE("constrained Laplacian: a node comes back to the middle; fixed nodes and short moves are left out") {
   Mesh mesh = quad_grid(2, 2);
   mesh.set_point(4, {1.3, 0.8});
   CHECK(move_to_neighbours(mesh, 4, {}) > 0.3);
@@ -117,7 +117,7 @@ TEST_CASE("constrained Laplacian: a node comes back to the middle; fixed ones an
   CHECK(move_to_neighbours(mesh, 4, {}) == 0);
 }
 
-TEST_CASE("constrained Laplacian: what would invert an element is shortened") {
+TEST_CASE("constrained Laplacian: a move that would invert an element is shortened") {
   Rng rng(11);
   int moved = 0;
   for (int i = 0; i < 300; ++i) {
@@ -175,7 +175,7 @@ TEST_CASE("smoothing by the thesis: better, valid, with fixed nodes in place, an
 //  +--+--+--+--+
 //  |  | _+_ |  |
 //  +--+'   '+--+
-TEST_CASE("smoothing by the thesis: OBSTOL says who is optimised, MAXITER how often") {
+TEST_CASE("smoothing by the thesis: OBSTOL says which nodes are optimised, MAXITER how often") {
   Mesh start = quad_grid(4, 4);
   start.set_point(2, {2.3, 0.9});
   start.set_point(7, {2.2, 1.1});

@@ -69,7 +69,7 @@ TEST_CASE("background: a walk from triangles nearby finds the closest point of a
   }
 }
 
-TEST_CASE("background: a walk goes far if it is downhill all the way") {
+TEST_CASE("background: a walk goes far if it leads downhill all the way") {
   const Patch patch = cylinder({.across = 400, .along = 3}, 0.4);
   const Background surface(patch.points, patch.triangles);
   const Foot foot = surface.walk(patch.points[0], surface.triangles() - 1);

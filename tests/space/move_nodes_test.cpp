@@ -27,7 +27,7 @@ Vector3d on_cylinder(const Vector3d& p) {
   return {p.x() / radius, p.y() / radius, p.z()};
 }
 
-TEST_CASE("move nodes: all go to where they belong, and only those that lie inside and are not the input's") {
+TEST_CASE("move nodes: inner nodes that are not the input's all go to where they belong, and no others") {
   Converted surface;
   const QuadMesh before = surface.mesh;
   const space::Result result(surface.patch, surface.mesh);
@@ -46,7 +46,7 @@ TEST_CASE("move nodes: all go to where they belong, and only those that lie insi
   CHECK(find_defect(surface.patch, surface.mesh).has_value());  // they have left the triangles
 }
 
-TEST_CASE("move nodes: a node that would turn elements over stays, and the others go") {
+TEST_CASE("move nodes: a node that would turn elements over stays, and the others move") {
   Converted surface;
   const QuadMesh before = surface.mesh;
   const space::Result result(surface.patch, surface.mesh);

@@ -12,7 +12,7 @@ using namespace qmorph::test;
 using Eigen::Vector3d;
 using space::TriangleTree;
 
-TEST_CASE("triangle tree: finds what a look at every triangle finds") {
+TEST_CASE("triangle tree: finds what looking at every triangle finds") {
   for (const Index across : {3u, 7u, 40u}) {
     const Patch patch = torus({.across = across, .along = 5, .jitter = 0.4});
     const TriangleTree tree(patch.points, patch.triangles);
@@ -31,7 +31,7 @@ TEST_CASE("triangle tree: finds what a look at every triangle finds") {
   }
 }
 
-TEST_CASE("triangle tree: none of no triangles, and triangles on one place") {
+TEST_CASE("triangle tree: no triangles at all, and triangles in one place") {
   const std::vector<Vector3d> points{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   CHECK(TriangleTree(points, {}).closest({0, 0, 0}).triangle == kNone);
   const std::vector<space::Background::Triangle> triangles(9, {0, 1, 2});

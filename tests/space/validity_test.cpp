@@ -50,7 +50,7 @@ TEST_CASE("in space: quads around a closed wall are good, however coarse it is")
   }
 }
 
-TEST_CASE("in space: a closed torus has good quads, and none when it is judged by the other side") {
+TEST_CASE("in space: a closed torus has good quads, and none when it is judged from the other side") {
   Case c{{.across = 24, .along = 10, .jitter = 0.1}, {}, {}};
   c.patch = torus(c.grid);
   c.grid.closed_across = c.grid.closed_along = true;
@@ -110,7 +110,7 @@ TEST_CASE("in space: a quad over a sharp fillet is good by the mean normal") {
   CHECK(space::scaled_jacobian(over, normals.of(over, 0)) == doctest::Approx(-1));
 }
 
-TEST_CASE("in space: along a barrier elements are judged by their own side") {
+TEST_CASE("in space: along a barrier elements are judged by their own side of it") {
   // Two squares that meet at 30 degrees, nearly folded; each a quad.
   Patch patch;
   patch.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0.5}, {0, 1, 0.5}};
@@ -168,7 +168,7 @@ TEST_CASE("in space: quads of a mixed surface are part of the reference, cut whe
   CHECK(reference.surface.neighbour(1, 2) >= 2);
 }
 
-TEST_CASE("in space: NaN and sides without length are no good corners") {
+TEST_CASE("in space: corners with NaN or with sides without length are not good") {
   space::CornerNormals<4> normals;
   normals.at.fill(Vector3d::UnitZ());
   normals.whole = Vector3d::UnitZ();

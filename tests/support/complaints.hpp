@@ -12,7 +12,7 @@ namespace qmorph::test {
 
 class Complaints {
  public:
-  /// Adds "rule: details", unless the rule has had its say already.
+  /// Adds "rule: details", unless there are enough lines of this rule already.
   template <class... Parts>
   void add(const std::string& rule, const Parts&... parts) {
     if (++count_[rule] > kEach) return;

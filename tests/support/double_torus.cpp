@@ -1,49 +1,50 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "support/surfaces.hpp"
 
 namespace qmorph::test {
 
+namespace {
+
 using Eigen::Vector3d;
 
-/// Two tori side by side, joined by a short tube between holes that face each other.
-Patch double_torus(double size, Rng& rng) {
-  const double large = 1, small = 0.4;
-  Patch patch;
-  std::array<std::vector<Index>, 2> rims;
-  for (int side = 0; side < 2; ++side) {
-    Patch one = torus(large, small, size, rng);
-    const double sign = side ? -1 : 1;
-    for (Vector3d& p : one.points) p = Vector3d(sign * (p.x() - 1.55), sign * p.y(), p.z());
-    // The hole is where the outer equator is nearest to the other torus.
-    const int across = 2 * count_for(std::numbers::pi * small, size, 3),
-              around = 2 * (count_for(2 * std::numbers::pi * large, size, 8) / 2);
-    const int half = 1 + int(small / size / 2);
-    std::vector<char> gone(one.triangles.size(), 0);
-    const auto cell = [&](int i, int j) { return 2 * (((i + around) % around) * across + (j + across) % across); };
-    for (int i = -half; i < half; ++i)
-      for (int j = -half; j < half; ++j) gone[cell(i, j)] = gone[cell(i, j) + 1] = 1;
-    const Index first = Index(patch.points.size());
-    const auto node = [&](int i, int j) {
-      return first + Index(((i + around) % around) * across + (j + across) % across);
-    };
-    std::vector<Index>& rim = rims[side];
-    for (int k = -half; k < half; ++k) rim.push_back(node(-half, k));
-    for (int k = -half; k < half; ++k) rim.push_back(node(k, half));
-    for (int k = half; k > -half; --k) rim.push_back(node(half, k));
-    for (int k = half; k > -half; --k) rim.push_back(node(k, -half));
-    patch.points.insert(patch.points.end(), one.points.begin(), one.points.end());
-    for (std::size_t t = 0; t < one.triangles.size(); ++t)
-      if (!gone[t])
-        patch.triangles.push_back(
-            {one.triangles[t][0] + first, one.triangles[t][1] + first, one.triangles[t][2] + first});
-  }
-  // Rims run the same way as seen from their own torus; the second one is turned to face the first.
-  std::vector<Index>&first = rims[0], &second = rims[1];
-  std::reverse(second.begin(), second.end());
+constexpr double kLarge = 1, kSmall = 0.4;  // radii
+
+/// Adds a torus on one side, with a hole where its outer equator is nearest to the other one. \return the hole's rim
+std::vector<Index> add_torus(Patch& patch, bool on_the_right, double size, Rng& rng) {
+  Patch one = torus(kLarge, kSmall, size, rng);
+  const double sign = on_the_right ? -1 : 1;
+  for (Vector3d& p : one.points) p = Vector3d(sign * (p.x() - 1.55), sign * p.y(), p.z());
+  const int across = 2 * count_for(std::numbers::pi * kSmall, size, 3),
+            around = 2 * (count_for(2 * std::numbers::pi * kLarge, size, 8) / 2);
+  const int half = 1 + int(kSmall / size / 2);
+  std::vector<char> gone(one.triangles.size(), 0);
+  const auto cell = [&](int i, int j) { return 2 * (((i + around) % around) * across + (j + across) % across); };
+  for (int i = -half; i < half; ++i)
+    for (int j = -half; j < half; ++j) gone[cell(i, j)] = gone[cell(i, j) + 1] = 1;
+  const Index first = Index(patch.points.size());
+  const auto node = [&](int i, int j) {
+    return first + Index(((i + around) % around) * across + (j + across) % across);
+  };
+  std::vector<Index> rim;
+  for (int k = -half; k < half; ++k) rim.push_back(node(-half, k));
+  for (int k = -half; k < half; ++k) rim.push_back(node(k, half));
+  for (int k = half; k > -half; --k) rim.push_back(node(half, k));
+  for (int k = half; k > -half; --k) rim.push_back(node(k, -half));
+  patch.points.insert(patch.points.end(), one.points.begin(), one.points.end());
+  for (std::size_t t = 0; t < one.triangles.size(); ++t)
+    if (!gone[t])
+      patch.triangles.push_back(
+          {one.triangles[t][0] + first, one.triangles[t][1] + first, one.triangles[t][2] + first});
+  return rim;
+}
+
+/// Joins rims that face each other by a tube.
+void add_tube(Patch& patch, const std::vector<Index>& first, const std::vector<Index>& second, double size) {
   std::size_t shift = 0;
   double least = 1e300;
   for (std::size_t s = 0; s < second.size(); ++s) {
@@ -74,8 +75,10 @@ Patch double_torus(double size, Rng& rng) {
     }
     before = here;
   }
-  drop_unused(patch);
-  // The seam is smooth: nodes near it go to the middle of their neighbours.
+}
+
+/// Nodes near the seam go to the middle of their neighbours.
+void smooth_seam(Patch& patch) {
   std::vector<std::vector<Index>> neighbours(patch.points.size());
   for (const auto& t : patch.triangles)
     for (int i = 0; i < 3; ++i) neighbours[t[i]].push_back(t[(i + 1) % 3]);
@@ -86,6 +89,19 @@ Patch double_torus(double size, Rng& rng) {
       for (Index w : neighbours[v]) sum += patch.points[w];
       patch.points[v] = sum / double(neighbours[v].size());
     }
+}
+
+}  // namespace
+
+/// Two tori side by side, joined by a short tube between holes that face each other.
+Patch double_torus(double size, Rng& rng) {
+  Patch patch;
+  const std::vector<Index> first = add_torus(patch, false, size, rng);
+  std::vector<Index> second = add_torus(patch, true, size, rng);
+  std::reverse(second.begin(), second.end());  // rims run the same way as seen from their own torus
+  add_tube(patch, first, second, size);
+  drop_unused(patch);
+  smooth_seam(patch);
   return patch;
 }
 

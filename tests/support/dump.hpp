@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Writes a patch or a result as a mesh file (MSH 2.2, text) that Gmsh, tools/draw and the referee can open.
+/// Writes a patch or a result as a mesh file (MSH 2.2, text) that Gmsh and tools/draw can open.
 
 #include <string>
 

@@ -147,7 +147,7 @@ void check_kept_quads(Case& c) {
   }
 }
 
-/// Pairs of points that share a place, to the precision of the referee.
+/// Counts points at the place of another, to within kSamePlace.
 std::size_t doubles(const std::vector<Vector3d>& points, double size) {
   std::map<std::array<long long, 3>, std::size_t> places;
   std::size_t count = 0;

@@ -9,7 +9,7 @@
 
 namespace qmorph::test {
 
-/// What of I1 to I6 does not hold: "rule: where", empty if all is well. The rules, as a line begins with them:
+/// What of I1 to I6 does not hold: "rule: where", empty if all is well. The rules, with which lines begin:
 ///
 ///   malformed    arrays that do not fit, numbers out of range, coordinates that are not finite
 ///   source       not: kept nodes of the input in its order, then new ones
@@ -21,12 +21,12 @@ namespace qmorph::test {
 ///   orientation  a corner that is not strictly convex, seen along the input's normal                          (I4)
 ///   parity       more than one triangle in a region, or one in an even region                                 (I5)
 ///   area         not the input's to 1e-9; a node off the plane                                                (I6)
-///   surface      of a curved patch, instead of the last two but parity: a node off the triangles, a corner that is
-///   turned over
-///                against their normals near it and against the element's mean normal, another Euler characteristic
+///   surface      of a curved patch, instead of orientation and area: a node off the triangles; a corner that is turned
+///                over, by their normals near it and by the element's mean normal; another Euler characteristic
 std::vector<std::string> broken_invariants(const Patch& in, const QuadMesh& out);
 
-/// Regions (triangles joined through edges that are no constraints), and how many have an odd number of boundary sides.
+/// Regions (triangles joined through edges that are not constraints), and how many have an odd number of boundary
+/// sides.
 struct RegionCount {
   std::size_t regions = 0, odd = 0;
 };

@@ -39,7 +39,7 @@ struct Example {
     out.quads = {{1, 2, 5, 4}, {0, 1, 4, 3}, {3, 4, 7, 6}, {4, 5, 8, 7}};
   }
 
-  /// The rules that complain, each once, in the order of the alphabet.
+  /// The rules that complain, each once, in alphabetical order.
   std::vector<std::string> rules() const {
     std::vector<std::string> names;
     for (const std::string& line : broken_invariants(in, out)) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Domains that no mesh generator should make, and that come all the same: without Gmsh, every seed gives a valid
-/// patch.
+/// Domains that no mesh generator should make, though some do. Made without Gmsh; every seed gives a valid patch.
 
 #include <cstdint>
 

@@ -7,10 +7,10 @@
 
 namespace qmorph::test {
 
-/// Moves inner nodes about; no triangle gets flatter than `flattest`, unless it was.
+/// Moves inner nodes about; no triangle gets flatter than `flattest`, unless it was so before.
 void jitter_nodes(Draft& draft, Rng& rng, double amount, double flattest);
 
-/// Flips edges that are no constraints at random, under the same limit.
+/// Flips edges that are not constraints at random, under the same limit.
 void flip_edges(Draft& draft, Rng& rng, double share, double flattest);
 
 /// Adds edge paths of the mesh to the constraints: they end anywhere, meet the boundary, cross one another.
@@ -22,7 +22,7 @@ void add_constraint_loop(Draft& draft, Rng& rng);
 /// Cuts the domain into materials along straight lines.
 void add_material_borders(Draft& draft, Rng& rng, int lines);
 
-/// Lists the boundary edges as constraints too, as line elements of a model do.
+/// Adds the boundary edges to the constraints, too, as line elements of a model do.
 void add_boundary_constraints(Draft& draft);
 
 /// Fixes inner nodes.

@@ -27,7 +27,7 @@ Patch box(const Eigen::Vector3d& sides, double size, Rng& rng);
 /// Along a curve that bends by random amounts; open at both ends.
 Patch tube(double length, double radius, double size, double bend, Rng& rng);
 
-/// How many segments of about `size` make up the length, at least so many.
+/// How many segments of about `size` make up the length, but at least `least`.
 int count_for(double length, double size, int least);
 
 /// Takes out the points that no triangle uses, and numbers the others by their first use.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// An observer that notes everything.
+/// An observer that records everything.
 
 #include <algorithm>
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace qmorph::test {
 
-/// Applies steps as they are told.
+/// Applies the steps that it is told.
 class FrontPlayer : public FrontObserver {
  public:
   explicit FrontPlayer(const FrontStart& start)

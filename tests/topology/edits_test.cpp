@@ -49,7 +49,7 @@ TEST_CASE("remove_doublets: the removal of one can make the next") {
   CHECK(defect(mesh) == "");
 }
 
-TEST_CASE("remove_doublets leaves what is no doublet, or must stay") {
+TEST_CASE("remove_doublets leaves what is not a doublet, or must stay") {
   const auto unchanged = [](Mesh mesh, std::vector<Index> nodes) {
     const Snapshot before = snapshot(mesh);
     topology::remove_doublets(mesh, nodes);
@@ -106,7 +106,7 @@ TEST_CASE("pillow: a ring of faces gets a layer on both sides") {
   CHECK(defect(mesh, false) == "");  // at a corner of the hole the copy may lie on its node: smoothing follows
 }
 
-TEST_CASE("pillow refuses an outline that touches itself, and changes nothing") {
+TEST_CASE("pillow refuses an outline that touches itself, and then changes nothing") {
   //  . x      two cells that share a node
   //  x .
   Mesh mesh = quad_grid(2, 2);

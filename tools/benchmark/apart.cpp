@@ -27,7 +27,7 @@ static_assert(std::is_trivially_copyable_v<Figures>);
   } catch (const std::string& error) {  // Gmsh before 4.10
     std::fprintf(stderr, "bench: %s\n", error.c_str());
   }
-  _exit(status);  // without taking Gmsh's model down, which nobody waits for
+  _exit(status);  // without taking Gmsh's model down, which would only cost time
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr double kLargestToMesh = 2e6;  // triangles: Gmsh's mesher needs minute
 constexpr double kRepeatBelow = 2;      // seconds
 constexpr int kRepeats = 3;
 
-/// A folder for the files that go from process to process, as long as it lives.
+/// A folder for files that processes exchange; removed at the end of its life.
 class Folder {
  public:
   Folder() {
@@ -61,7 +61,7 @@ Comparison compare(double size, Kind kind, double limit, const Folder& folder, b
   const std::string meshed = folder.file("meshed.msh");
   const std::string one = folder.file("one.msh"), two = folder.file("two.msh");
   for (const std::string& file : {in, meshed, quads, one, two})
-    std::filesystem::remove(file);  // those of the size before
+    std::filesystem::remove(file);  // those of the previous size
   Comparison result;
   result.kind = kind;
   const Ran made = run_apart(
@@ -98,9 +98,9 @@ std::string cell(const Comparison& c, Ran Comparison::*which, double limit) {
 }
 
 constexpr const char* kRivals =
-    R"(From triangles to quads in Gmsh's model: seconds (of the processor; of the clock for 2 threads), microseconds for each
-triangle, and memory of the process at the peak (-: not tried, as it would take more than {:.0f} s even at the cost for each
-triangle of the size before):
+    R"(From triangles to quads in Gmsh's model: CPU seconds (elapsed ones for 2 threads), microseconds per triangle, and
+peak memory of the process (-: not tried, since it would take more than {:.0f} s even at the previous size's cost per
+triangle):
 
 | surfaces | triangles | Gmsh, simple | Gmsh, Blossom | qmorph, 1 thread | qmorph, 2 threads |
 |---|---|---|---|---|---|
@@ -117,7 +117,7 @@ void print_rivals(const std::vector<Comparison>& comparisons, double limit) {
   }
 }
 
-/// Seconds of the processor for the conversion alone: front to rest.
+/// CPU seconds of the conversion alone: front to rest.
 double conversion_seconds(const Figures& f) { return f.cpu / f.work * f.convert; }
 
 void print_meshing(const std::vector<Comparison>& comparisons) {
@@ -134,9 +134,9 @@ void print_meshing(const std::vector<Comparison>& comparisons) {
 }
 
 constexpr const char* kStages = R"(
-qmorph's seconds of the processor by stages, on one thread, between Gmsh's own for opening and writing the files (MSH 4.1,
-binary). I/O: Gmsh's share of all; speed-up: of the conversion alone (front to rest), seconds of the clock on one thread and
-on two; same: both wrote the same bytes:
+qmorph's CPU seconds by stages, on one thread, between Gmsh's own for opening and writing the files (MSH 4.1, binary). I/O:
+Gmsh's share of the total; speed-up: of the conversion alone (front to rest), elapsed seconds on one thread and on two; same:
+both wrote the same bytes:
 
 | surfaces | triangles | open | read | front | cleanup | smoothing | rest | check | replace | write | I/O | conversion | speed-up | same |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
@@ -147,7 +147,7 @@ void print_stages(const std::vector<Comparison>& comparisons) {
   for (const Comparison& c : comparisons) {
     if (c.one_thread.end != End::finished) continue;
     const Figures& f = c.one_thread.figures;
-    const double own = f.cpu / f.work;  // share of the clock's seconds that the processor was ours
+    const double own = f.cpu / f.work;  // share of the elapsed time for which the processor was ours
     const double rest = std::max(0.0, f.convert - f.front - f.cleanup - f.smoothing);
     std::string row = fmt::format("| {} | {} | {:.2f} |", name_of(c.kind), c.triangles, f.open);
     for (const double time : {f.read, f.front, f.cleanup, f.smoothing, rest, f.check, f.replace})
@@ -163,13 +163,13 @@ void print_stages(const std::vector<Comparison>& comparisons) {
   }
 }
 
-/// False if Gmsh's Blossom would be over the limit even at the cost per triangle of the size before.
+/// False if Gmsh's Blossom would exceed the limit even at the previous size's cost per triangle.
 bool worth_trying(const Comparison& before, double size, double limit) {
   if (before.blossom.end != End::finished) return false;
   return before.blossom.figures.cpu / double(before.triangles) * size < limit;
 }
 
-/// On a quiet machine, one thread takes as many seconds as its processor's.
+/// On a quiet machine, the CPU time of one thread is its elapsed time.
 void print_disturbance(const std::vector<Comparison>& comparisons) {
   constexpr double kQuiet = 0.9, kShort = 0.1;  // share; seconds
   double work = 0, cpu = 0;

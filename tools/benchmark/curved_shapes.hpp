@@ -6,19 +6,19 @@
 
 namespace benchmark {
 
-/// Sheets in z = 0, bent: nodes at the places that `to` gives.
+/// Bends sheets in z = 0: `to` gives the places of the nodes.
 Patch bent(Patch patch, const std::function<Eigen::Vector3d(const Vector2d&)>& to);
-/// Onto a cylinder.
+/// Bends onto a cylinder.
 std::function<Eigen::Vector3d(const Vector2d&)> roll(double radius);
-/// Up and down in both directions.
+/// Bends up and down in both directions.
 std::function<Eigen::Vector3d(const Vector2d&)> waves(double length, double height);
 
-/// Of `around` edges; open at both ends.
+/// A tube of `around` edges, open at both ends.
 Patch tube(int around, int rows, double jitter, Random& random);
-/// Closed both ways; `along` edges around the hole, on the middle of the tube, and `around` edges around the tube, an
-/// even number.
+/// A torus with `along` edges around the hole, at the middle of the tube, and `around` edges around the tube, an even
+/// number.
 Patch torus(int along, int around, double jitter, Random& random);
-/// An octahedron, its edges divided, blown up.
+/// A sphere: an octahedron with divided edges, inflated.
 Patch sphere(int edges, double jitter, Random& random);
 
 }  // namespace benchmark

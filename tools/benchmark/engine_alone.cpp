@@ -26,8 +26,8 @@ double memory(const std::string& name) {
 }
 
 struct Timing {
-  double seconds;  // of the processor, which other programs on the machine do not disturb
-  double own;      // over those of the clock
+  double seconds;  // of CPU time, which other programs on the machine do not disturb
+  double own;      // CPU time over elapsed time
   qmorph::ConversionReport report;
 };
 

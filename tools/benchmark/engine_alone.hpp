@@ -8,8 +8,8 @@
 
 namespace benchmark {
 
-/// Converts each size of each kind `repeats` times and prints a line with the middle one: seconds of the processor by
-/// stages, seconds and bytes per triangle, quality. \return false if a result is not valid
+/// Converts each size of each kind `repeats` times and prints a line for the median: CPU seconds by stages, seconds and
+/// bytes per triangle, quality. \return false if a result is not valid
 bool time_engine(const std::vector<double>& sizes, const std::vector<Kind>& kinds, int repeats);
 
 }  // namespace benchmark

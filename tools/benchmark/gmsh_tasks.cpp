@@ -89,12 +89,11 @@ void add_entity_nodes(const Triangulation& mesh, int dim, int tag, const std::ve
   gmsh::model::mesh::addNodes(dim, tag, nodes, xyz);
 }
 
-void build_model(const Triangulation& mesh) {
-  const Curves curves = join_sides(find_sides(mesh));
+constexpr int kPoint = -1;
 
-  // A node belongs to the curve that it is on, or to a point where it is on several.
-  std::vector<int> curve_of(mesh.points.size(), 0);
-  constexpr int kPoint = -1;
+/// The tag of the curve that each node is on, or kPoint where it is on several; 0 for inner nodes.
+std::vector<int> find_curves_of_nodes(const Curves& curves, std::size_t nodes_in_all) {
+  std::vector<int> curve_of(nodes_in_all, 0);
   int tag = 0;
   for (const auto& [bounds, nodes] : curves) {
     ++tag;
@@ -103,6 +102,12 @@ void build_model(const Triangulation& mesh) {
       curve = curve == 0 || curve == tag ? tag : kPoint;
     }
   }
+  return curve_of;
+}
+
+void build_model(const Triangulation& mesh) {
+  const Curves curves = join_sides(find_sides(mesh));
+  const std::vector<int> curve_of = find_curves_of_nodes(curves, mesh.points.size());
   std::map<std::size_t, int> points;
   for (std::size_t i = 0; i < curve_of.size(); ++i)
     if (curve_of[i] == kPoint) {
@@ -112,7 +117,7 @@ void build_model(const Triangulation& mesh) {
 
   std::vector<std::vector<int>> bounding(mesh.surfaces.size());
   std::vector<std::vector<std::size_t>> nodes_of_curve(curves.size() + 1);
-  tag = 0;
+  int tag = 0;
   for (const auto& [bounds, nodes] : curves) {
     ++tag;
     std::vector<std::size_t> own = nodes;
@@ -128,7 +133,7 @@ void build_model(const Triangulation& mesh) {
       if (surface != qmorph::kNone) bounding[surface].push_back(tag);
   }
 
-  // All nodes before the first element: Gmsh looks all nodes up anew after each call that adds some.
+  // All nodes before the first element: Gmsh builds its index of nodes anew after each call that adds some.
   for (const auto& [node, point] : points) add_entity_nodes(mesh, 0, point, {node});
   for (int curve = 1; curve <= int(curves.size()); ++curve) add_entity_nodes(mesh, 1, curve, nodes_of_curve[curve]);
   std::vector<bool> placed(mesh.points.size(), false);

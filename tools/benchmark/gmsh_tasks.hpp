@@ -12,10 +12,10 @@ namespace benchmark {
 /// Puts triangles into a Gmsh model, surfaces with the curves and points that bound them, and writes it.
 Figures write_triangles(const Triangulation& mesh, const std::string& path);
 
-/// Gmsh makes about so many triangles itself, in the domain of Kind::even (algorithm 6), and writes them.
+/// Has Gmsh make about this many triangles itself, in the domain of Kind::even (algorithm 6), and writes them.
 Figures gmsh_meshes(double wanted, const std::string& path);
 
-/// A file of triangles becomes a file of quads, by Gmsh's own recombination: `algorithm` 0 is the simple one, 1
+/// Turns a file of triangles into a file of quads by Gmsh's own recombination: `algorithm` 0 is the simple one, 1
 /// Blossom.
 Figures gmsh_recombines(const std::string& in, const std::string& out, int algorithm);
 

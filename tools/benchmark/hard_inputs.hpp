@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Inputs that tempt a mesher to search for long: none may take more time than its triangles allow.
+/// Inputs that tempt a mesher to search for a long time: none may take more than its number of triangles allows.
 
 #include <functional>
 #include <string>

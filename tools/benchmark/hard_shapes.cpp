@@ -36,7 +36,7 @@ Patch with_fixed_nodes(Patch patch, double share, Random& random) {
 
 std::vector<Vector2d> cloud(int count, Random& random) {
   std::vector<Vector2d> points;
-  for (int i = 0; i < count; ++i) {  // in rows there and back, so that each is near the one before
+  for (int i = 0; i < count; ++i) {  // in rows, to and fro, so that each is near the one before
     const double y = std::floor(std::sqrt(double(i)));
     points.emplace_back(random.between(0, 1), random.between(y, y + 1));
   }
@@ -262,7 +262,7 @@ Patch comb(int teeth) {
   Patch patch = zip({low, high});
   Patch back = grid(2 * teeth, 4);
   keep_triangles(patch, [](const Vector2d& p) { return std::fmod(p.x(), 2) < 1; });
-  // Both have the nodes of the line between them.
+  // Both have the nodes on the line between them.
   map_points(back, [](const Vector2d& p) { return Vector2d(p.x(), p.y() - 4); });
   std::vector<Index> place;
   for (const auto& p : patch.points) {

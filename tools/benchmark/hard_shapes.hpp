@@ -19,7 +19,7 @@ Patch uneven_stretch();
 Patch boundary_layer();
 /// All triangles meet at one node, in the middle or on the outline.
 Patch fan(Index count, bool inside);
-/// Square cells with a fan each, whose sides they share.
+/// Square cells that share their sides, with a fan in each.
 Patch many_fans(int each_way, int edges);
 /// Two embedded lines across a square, `gap` apart; triangles grow away from them.
 Patch close_lines(double gap, double size);
@@ -28,14 +28,14 @@ std::vector<Patch> scattered_surfaces(Patch patch, Index surfaces, Random& rando
 std::vector<Patch> ragged_pieces(const Patch& patch, double width, Random& random);
 /// A convex polygon of `count` nodes, cut by diagonals at random.
 Patch cut_polygon(Index count, Random& random, double evenness);
-/// Two rows of nodes that share none of their abscissae.
+/// Two rows of nodes, no two of them at the same abscissa.
 Patch strip(int edges, double length_over_height, Random& random);
 /// A lattice whose outer triangles all have a spike on them.
 Patch spikes(int columns, int rows, double length);
 /// A strip with a notch in every second edge on both sides.
 Patch notches(int columns);
 Patch holes(int columns, int rows, int period);
-/// What is left of a lattice if many triangles are missing: a maze that touches itself at nodes.
+/// What is left of a lattice without many of its triangles: a maze that touches itself at nodes.
 Patch maze(int columns, int rows, double share, Random& random);
 Patch spiral(double width, int turns);
 Patch star(int points, int count);
@@ -45,7 +45,7 @@ Patch comb(int teeth);
 Patch graded(int columns, int rows, double ratio);
 /// An edge is turned wherever that leaves two triangles, good or bad.
 Patch turned(int columns, int rows);
-/// A share of the pairs of triangles are quads already.
+/// A share of the pairs of triangles is quads already.
 Patch mixed(int columns, int rows, double share);
 
 }  // namespace benchmark

@@ -6,7 +6,7 @@ namespace benchmark {
 
 /// Converts the hard inputs whose names contain `word` on one thread, each in a process of its own, and prints a line
 /// for each.
-/// \param limit seconds of the processor for each \return false if one took more than kMostMicroseconds a triangle
+/// \param limit CPU seconds for each \return false if one took more than kMostMicroseconds a triangle
 bool time_hard_inputs(const std::string& word, double limit);
 
 inline constexpr double kMostMicroseconds = 30;

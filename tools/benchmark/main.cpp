@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// qmorph_bench: what a conversion costs, alone and beside Gmsh. Run it by tools/bench.
+// qmorph_bench: what a conversion costs, alone and compared with Gmsh. Run it by tools/bench.
 
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +41,7 @@ struct Request {
   double limit = 600;
 };
 
-/// \return false if the words make no sense
+/// \return false if the arguments make no sense
 bool parse(const std::vector<std::string>& words, Request& request) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];

@@ -31,7 +31,7 @@ constexpr Line kLines[] = {
     {"qmorph, 2 threads", "#1e64b4", "6 4", &Comparison::two_threads},
 };
 
-constexpr double kHair = 1.1;  // values this near to a power of ten need no further one
+constexpr double kHair = 1.1;  // a value this close to a power of ten needs no further tick
 
 /// Powers of ten around all values.
 struct Decades {

@@ -30,7 +30,7 @@ double in_circle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const 
   return p.squaredNorm() * cross(q, r) + q.squaredNorm() * cross(r, p) + r.squaredNorm() * cross(p, q);
 }
 
-/// Points go in one after another, edges are turned until all are locally Delaunay. [Lawson77]
+/// Inserts points one after another and flips edges until all are locally Delaunay. [Lawson77]
 class Delaunay {
  public:
   explicit Delaunay(const std::vector<Vector2d>& points) : points_(points) {
@@ -214,7 +214,7 @@ std::vector<InnerEdge> inner_edges(const Patch& patch) {
 }
 
 std::vector<Index> inner_nodes(const Patch& patch) {
-  std::vector<int> balance(patch.points.size(), 0);  // triangles less inner edges: 0 where they close around a node
+  std::vector<int> balance(patch.points.size(), 0);  // triangles minus inner edges: 0 where they close around a node
   for (const auto& t : patch.triangles)
     for (const Index v : t) ++balance[v];
   for (const InnerEdge& edge : inner_edges(patch)) --balance[edge.a], --balance[edge.b];

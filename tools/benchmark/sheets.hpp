@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Flat triangulations in z = 0, counter-clockwise, to make hard inputs of.
+/// Flat triangulations in z = 0, counter-clockwise, that hard inputs are made of.
 
 #include <Eigen/Geometry>
 #include <array>
@@ -16,27 +16,25 @@ using Eigen::Vector2d;
 using qmorph::Index;
 using qmorph::Patch;
 
-/// Rows of nodes from bottom to top, each from left to right; the strips between them are closed like a zip, by the
-/// shorter edge.
+/// Rows of nodes from bottom to top, each from left to right; the strips between them are zipped up by the shorter edge.
 Patch zip(const std::vector<std::vector<Vector2d>>& rows);
 
 /// A row of equal edges from x = 0 to `width`.
 std::vector<Vector2d> row(double y, double width, int edges);
 
-/// Cells of side 1, each cut along a diagonal, the same in all of them.
+/// Cells of side 1, all cut along the same diagonal.
 Patch grid(int columns, int rows);
 
 /// Equilateral triangles of side 1; inner nodes moved by up to `jitter`, each way.
 Patch lattice(int columns, int rows, double jitter, Random& random);
 
-/// The Delaunay triangulation of the points inside their convex hull, nearly: good enough where points are in general
-/// position.
+/// Nearly the Delaunay triangulation of the points: good enough for points in general position.
 Patch delaunay(const std::vector<Vector2d>& points);
 
 /// Moves all points.
 void map_points(Patch& patch, const std::function<Vector2d(const Vector2d&)>& to);
 
-/// Keeps triangles by the places of their centroids, and what they use.
+/// Keeps triangles chosen by the places of their centroids, and what they use.
 void keep_triangles(Patch& patch, const std::function<bool(const Vector2d&)>& is_kept);
 
 /// An edge between two triangles, and the nodes across from it; the first triangle runs from a to b.
@@ -52,7 +50,7 @@ std::vector<Index> inner_nodes(const Patch& patch);
 /// `flattest` (height over longest side).
 void turn_edges(Patch& patch, double share, double flattest, Random& random);
 
-/// One patch for each number that `part_of` gives to a triangle, with the same points as far as they are used.
+/// One patch for each number that `part_of` gives to triangles, with those points that it uses.
 std::vector<Patch> split(const Patch& patch, const std::vector<Index>& part_of, Index parts);
 
 }  // namespace benchmark

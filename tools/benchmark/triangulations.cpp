@@ -52,7 +52,8 @@ struct Lattice {
   std::vector<std::array<Index, 3>> triangles;
 };
 
-/// Rows of nodes, every second one shifted by half an edge, but the sides stay straight. \return where each row begins
+/// Rows of nodes, every second one shifted by half an edge, except that the sides stay straight. \return where each row
+/// begins
 std::vector<std::size_t> place_nodes(Lattice& lattice) {
   std::vector<std::size_t> row_begin;
   for (int r = 0; r <= lattice.rows; ++r) {
@@ -71,7 +72,7 @@ std::vector<std::size_t> place_nodes(Lattice& lattice) {
   return row_begin;
 }
 
-/// Closes the strip between two rows like a zip, by the shorter edge.
+/// Zips up the strip between two rows by the shorter edge.
 void triangulate_strips(Lattice& lattice, const std::vector<std::size_t>& row_begin, const Holes& holes) {
   const auto& nodes = lattice.nodes;
   for (int r = 0; r < lattice.rows; ++r) {
@@ -88,8 +89,8 @@ void triangulate_strips(Lattice& lattice, const std::vector<std::size_t>& row_be
   }
 }
 
-/// A node is on the boundary when its triangles do not close around it; the others are jittered, and those inside holes
-/// go.
+/// A node is on the boundary if its triangles do not close around it; other nodes are jittered, and those inside holes
+/// are removed.
 void finish_nodes(Lattice& lattice, Random& random) {
   std::vector<double> angle(lattice.nodes.size(), 0);
   for (const auto& t : lattice.triangles)

@@ -24,14 +24,14 @@ inline constexpr Kind kKinds[] = {Kind::even, Kind::graded, Kind::many};
 /// "even", "graded", "many surfaces"
 const char* name_of(Kind kind);
 
-/// Surfaces in the plane z = 0, all counterclockwise; an edge that two of them share is the same two rows of `points`.
+/// Surfaces in the plane z = 0, all counterclockwise; where two of them share an edge, they use the same two points.
 struct Triangulation {
   std::vector<Eigen::Vector3d> points;
-  std::vector<bool> boundary;  ///< of a row: on the boundary of a surface
+  std::vector<bool> boundary;  ///< by point: whether it is on the boundary of a surface
   std::vector<std::vector<std::array<Index, 3>>> surfaces;
 
   std::size_t triangle_count() const;
-  /// One surface alone.
+  /// One of the surfaces.
   qmorph::Patch patch(std::size_t surface) const;
 };
 

@@ -15,7 +15,8 @@ namespace qmorph::cli {
 void show_result(const report::Scene& scene, report::PictureColour colour, bool irregular, const std::vector<int>& left,
                  adapter::ShownViews& views);
 
-/// The same for a model whose lines Gmsh does not draw, since it is not the current one, beside the views that are there.
+/// The same for a model whose lines Gmsh does not draw, since it is not the current one, beside the views that are
+/// there.
 void show_second(const report::Scene& scene, report::PictureColour colour, bool irregular, adapter::ShownViews& views);
 
 /// Colours of report::on_scale() for a view.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "kernel/sort_unique.hpp"
+#include "smoothing/node_energy.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
 
@@ -138,10 +139,11 @@ Tree span_parts(const Mesh& mesh, const Division& division, const std::vector<In
 void straighten_interfaces(Mesh& mesh, const Division& division, const std::vector<Index>& nodes) {
   std::vector<Index> around = nodes_around(mesh, nodes);
   std::erase_if(around, [&](Index v) { return !mesh.is_free(v) || is_on_interface(mesh, division, v); });
+  smoothing::Star star;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Index v : nodes)
       if (mesh.is_free(v)) move_towards(mesh, v, straight_position(mesh, division, v));
-    for (Index v : around) smoothing::relax_node(mesh, v);
+    for (Index v : around) smoothing::relax_node(mesh, v, star);
   }
 }
 

@@ -29,7 +29,8 @@ void Figures::add_result(const ConvertedSurface& converted, SurfaceReport& repor
     const Patch& patch = converted.surface.parts[p].patch;
     quality.add(patch, result);
     fidelity.add(patch, result);
-    for (PoorQuad poor : explain_poor_quads(patch, result, quality.scaled_jacobians().subspan(report.quads_out))) {
+    const auto figures = quality.scaled_jacobians().subspan(report.quads_out);
+    for (PoorQuad poor : explain_poor_quads(patch, result, figures, crease_angle_)) {
       poor.quad += Index(report.quads_out);
       report.poor.push_back(poor);
     }

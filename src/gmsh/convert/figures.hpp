@@ -12,6 +12,8 @@ namespace qmorph::adapter {
 
 class Figures {
  public:
+  explicit Figures(const Options& options) : crease_angle_(options.crease_angle) {}
+
   /// Of a result that has been checked: elements, quality, what makes quads poor, sizes.
   void add_result(const ConvertedSurface& converted, SurfaceReport& report);
   /// Warns where quads that were to be improved had to become worse. \pre add_result
@@ -22,6 +24,7 @@ class Figures {
   void put_into(ModelReport& report) const;
 
  private:
+  const double crease_angle_;
   QualityAccumulator total_;
   QualityAccumulator total_before_;  ///< of quads that were to be improved
   FidelityAccumulator fidelity_;

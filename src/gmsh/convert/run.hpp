@@ -55,7 +55,7 @@ class Run {
   std::map<std::uint32_t, CommonElement> common_;
   std::vector<Index> local_;
   std::vector<ConvertedSurface> converted_;
-  Figures figures_;
+  Figures figures_{options_};
 };
 
 }  // namespace qmorph::adapter

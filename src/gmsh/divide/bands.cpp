@@ -186,13 +186,8 @@ bool BandFinder::add_strip(const Chain& loop) {
 }
 
 void BandFinder::add_four_sides(const Chain& loop) {
-  constexpr double kCorner = 0.7;  // cosine of the angle by which a boundary turns there, at most
-  std::vector<std::size_t> corners;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const std::vector<Vector3d> before = points({loop[(i + loop.size() - 1) % loop.size()]}), after = points({loop[i]});
-    const Vector3d in = before.back() - before[before.size() - 2], out = after[1] - after[0];
-    if (in.normalized().dot(out.normalized()) < kCorner) corners.push_back(i);
-  }
+  constexpr double kTurn = 45;  // degrees
+  const std::vector<std::size_t> corners = corners_of(model_, loop, kTurn);
   if (corners.size() != 4) return;
   for (std::size_t k : {0, 1}) {
     const Chain a = part(loop, corners[k], corners[k + 1]),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/divide/curves.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 
@@ -87,12 +88,44 @@ void add_extruded(CurveModel& model) {
   }
 }
 
+/// No point is farther from the chord than a share of its length.
+bool is_straight(const DividedCurve& curve) {
+  constexpr double kBend = 0.01;
+  constexpr int kSamples = 8;
+  std::vector<double> parameters;
+  for (int i = 1; i < kSamples; ++i)
+    parameters.push_back(curve.parameters.front() +
+                         i * (curve.parameters.back() - curve.parameters.front()) / kSamples);
+  const Eigen::Vector3d chord = curve.points.back() - curve.points.front();
+  const std::vector<Eigen::Vector3d> points = points_at(curve, parameters);
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
+    return (p - curve.points.front()).cross(chord).norm() <= kBend * chord.squaredNorm();
+  });
+}
+
+/// Where another curve has the same ends, one segment of each would lie on the other. Transfinite curves of two
+/// segments have two at any size.
+void find_spare(CurveModel& model) {
+  std::map<std::pair<int, int>, int> between;
+  const auto ends = [](const DividedCurve& curve) { return std::minmax(curve.ends[0], curve.ends[1]); };
+  for (const DividedCurve& curve : model.curves) ++between[ends(curve)];
+  for (DividedCurve& curve : model.curves)
+    curve.is_spare = curve.segments == 2 && curve.finer == 1 && curve.ends[0] != curve.ends[1] &&
+                     between[ends(curve)] == 1 && is_straight(curve);
+}
+
 }  // namespace
 
 double DividedCurve::wish() const {
+  if (is_spare) return double(finer) / kFiner;
   // Gmsh nearly always rounds up. Half a segment is taken back, so that its own number is the nearest.
   const double exact = std::clamp((finer - 0.5) / kFiner, segments - 0.95, double(segments));
   return (exact + segments) / 2;
+}
+
+double DividedCurve::parameter_at(double at) const {
+  const std::size_t below = std::min(std::size_t(at), parameters.size() - 2);
+  return parameters[below] + (at - double(below)) * (parameters[below + 1] - parameters[below]);
 }
 
 Index CurveModel::find(int tag) const {
@@ -103,12 +136,7 @@ Index CurveModel::find(int tag) const {
 
 std::vector<double> parameters_for(const DividedCurve& curve, int segments) {
   std::vector<double> parameters;
-  for (int i = 1; i < segments; ++i) {
-    const double at = double(i) * curve.finer / segments;
-    const auto below = std::size_t(at);
-    const double t = at - double(below);
-    parameters.push_back(curve.parameters[below] + t * (curve.parameters[below + 1] - curve.parameters[below]));
-  }
+  for (int i = 1; i < segments; ++i) parameters.push_back(curve.parameter_at(double(i) * curve.finer / segments));
   return parameters;
 }
 
@@ -150,6 +178,7 @@ std::optional<CurveModel> divide_as_wished(const std::vector<int>& surfaces) {
     const ScopedOption size("Mesh.MeshSizeFactor", get_option("Mesh.MeshSizeFactor") / kFiner);
     // A small circle has a least number of segments, and would seem to have it at any size.
     const ScopedOption circles("Mesh.MinimumCircleNodes", get_option("Mesh.MinimumCircleNodes") * kFiner);
+    const ScopedOption curves("Mesh.MinimumCurveNodes", 2);
     ::gmsh::model::mesh::generate(1);
     for (const auto& [dim, tag] : entities) {
       DividedCurve curve;
@@ -165,6 +194,7 @@ std::optional<CurveModel> divide_as_wished(const std::vector<int>& surfaces) {
   ::gmsh::model::getEntities(after, 1);
   if (!understood || after.size() != entities.size()) return std::nullopt;  // a compound has a curve of its own
   for (DividedCurve& curve : model.curves) curve.segments = count_segments(curve.tag);
+  if (get_option("Mesh.MinimumCurveNodes") > 2) find_spare(model);
   for (int tag : surfaces) model.surfaces.push_back(read_surface(model, tag));
   add_periodic(model);
   add_extruded(model);

@@ -22,11 +22,13 @@ struct DividedCurve {
   std::vector<double> parameters;       ///< of the finer nodes, with the ends
   std::vector<Eigen::Vector3d> points;  ///< of the same
   double length = 0;
-  bool carried = false;  ///< by an extrusion, or it carries another
+  bool carried = false;   ///< by an extrusion, or it carries another
+  bool is_spare = false;  ///< half of its two segments: a straight piece of a spline, of which Gmsh makes two at least
 
   double wish() const;  ///< its length in sizes
   double size() const { return segments > 0 ? length / segments : length; }
-  bool depends_on_size() const { return segments > 0 && finer > segments; }
+  double parameter_at(double at) const;  ///< `at` counts the segments between the finer nodes
+  bool depends_on_size() const { return segments > 0 && (finer > segments || is_spare); }
 };
 
 struct BoundedSurface {
@@ -37,7 +39,7 @@ struct BoundedSurface {
 
 /// What Gmsh's division of the curves is for.
 struct CurveModel {
-  std::vector<DividedCurve> curves;  ///< by tag
+  std::vector<DividedCurve> curves;  ///< by tag; pieces of one (cuts.hpp) follow one another
   std::vector<BoundedSurface> surfaces;
   std::vector<std::pair<Index, Index>> images;  ///< periodic, or carried along by an extrusion
 

@@ -6,8 +6,10 @@
 #include <numeric>
 
 #include "gmsh/divide/bands.hpp"
+#include "gmsh/divide/corners.hpp"
 #include "gmsh/divide/crossings.hpp"
 #include "gmsh/divide/curves.hpp"
+#include "gmsh/divide/cuts.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "kernel/sort_unique.hpp"
@@ -47,9 +49,9 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const st
   for (Index c = 0; c < model.curves.size(); ++c) {
     const DividedCurve& curve = model.curves[c];
     parity::CurveWish wish;
-    wish.segments = curve.segments;
+    wish.segments = curve.is_spare ? 1 : curve.segments;
     wish.wish = curve.wish();
-    wish.least = curve.segments <= kFew ? curve.segments : std::max(kFew, int(std::ceil(kMostFewer * curve.segments)));
+    wish.least = wish.segments <= kFew ? wish.segments : std::max(kFew, int(std::ceil(kMostFewer * curve.segments)));
     wish.fixed = !curve.depends_on_size() || task.kept_curves.count(curve.tag) || stubborn.count(c);
     if (const auto given = task.given.find(curve.tag); given != task.given.end()) {
       wish.segments = given->second;
@@ -66,17 +68,42 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const st
     if (is_divided(model, surface))  // each curve by itself, so that it does not matter which of them is around what
       for (const std::vector<Index>* curves : {&surface.boundary, &surface.embedded})
         for (Index c : *curves) problem.surfaces.push_back({c});
+  heed_corners(model, problem);
   problem.images = model.images;
   problem.bands = find_bands(model);
   return problem;
 }
 
-/// Gmsh has spread the nodes evenly; moves them to where the sizes want them.
-void place_nodes(const DividedCurve& curve, int segments) {
-  const std::vector<std::pair<double, std::size_t>> nodes = nodes_along(curve.tag);
-  const std::vector<double> parameters = parameters_for(curve, segments);
+/// A curve of the geometry, with its pieces, if it is in pieces.
+struct WholeCurve {
+  Index first = 0, last = 0;  ///< the rows between are its pieces
+  int planned = 0, before = 0;
+  bool is_changed() const { return planned != before || last - first > 1; }
+};
+
+std::vector<WholeCurve> whole_curves(const CurveModel& model, const std::vector<int>& segments) {
+  std::vector<WholeCurve> whole;
+  for (Index c = 0; c < model.curves.size(); ++c) {
+    if (c == 0 || model.curves[c].tag != model.curves[c - 1].tag) whole.push_back({c, c, 0, 0});
+    whole.back().last = c + 1;
+    whole.back().planned += segments[c];
+    whole.back().before += model.curves[c].segments;
+  }
+  return whole;
+}
+
+/// Gmsh has spread the nodes evenly; moves them to where the sizes want them, and to the ends of pieces.
+void place_nodes(const CurveModel& model, const WholeCurve& whole, const std::vector<int>& segments) {
+  const DividedCurve& first = model.curves[whole.first];
+  const std::vector<std::pair<double, std::size_t>> nodes = nodes_along(first.tag);
+  std::vector<double> parameters;
+  for (Index c = whole.first; c < whole.last; ++c) {
+    if (c > whole.first) parameters.push_back(model.curves[c].parameters.front());
+    const std::vector<double> inside = parameters_for(model.curves[c], segments[c]);
+    parameters.insert(parameters.end(), inside.begin(), inside.end());
+  }
   if (nodes.size() != parameters.size()) return;
-  const std::vector<Vector3d> points = points_at(curve, parameters);
+  const std::vector<Vector3d> points = points_at(first, parameters);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     ::gmsh::model::mesh::setNode(nodes[i].second, {points[i].x(), points[i].y(), points[i].z()}, {parameters[i]});
 }
@@ -91,21 +118,27 @@ void undo(const DividedCurve& curve) {
 
 /// Divides the curves as planned. \return those that Gmsh divides otherwise
 std::set<Index> carry_out(const CurveModel& model, const IntervalPlan& plan) {
-  std::set<Index> changed, stubborn;
-  for (Index c = 0; c < model.curves.size(); ++c)
-    if (plan.segments[c] != model.curves[c].segments) changed.insert(c);
+  std::set<Index> stubborn;
+  std::vector<WholeCurve> whole = whole_curves(model, plan.segments), changed;
+  for (const WholeCurve& curve : whole)
+    if (curve.is_changed()) changed.push_back(curve);
   if (changed.empty()) return {};
-  for (Index c : changed)
-    if (folds_back(model.curves[c], plan.segments[c])) stubborn.insert(c);
+  for (const WholeCurve& curve : changed)
+    for (Index c = curve.first; c < curve.last; ++c)
+      if (folds_back(model.curves[c], plan.segments[c])) stubborn.insert(c);
   if (!stubborn.empty()) return stubborn;
-  for (Index c : changed) ::gmsh::model::mesh::setTransfiniteCurve(model.curves[c].tag, plan.segments[c] + 1);
+  const auto tag = [&](const WholeCurve& curve) { return model.curves[curve.first].tag; };
+  for (const WholeCurve& curve : changed) ::gmsh::model::mesh::setTransfiniteCurve(tag(curve), curve.planned + 1);
   ::gmsh::model::mesh::generate(1);
-  for (Index c = 0; c < model.curves.size(); ++c)
-    if (count_segments(model.curves[c].tag) != plan.segments[c]) stubborn.insert(c);
-  if (stubborn.empty())
-    for (Index c : changed) place_nodes(model.curves[c], plan.segments[c]);
-  else
-    for (Index c : changed) undo(model.curves[c]);
+  for (const WholeCurve& curve : whole)
+    if (count_segments(tag(curve)) != curve.planned)
+      for (Index c = curve.first; c < curve.last; ++c) stubborn.insert(c);
+  for (const WholeCurve& curve : changed) {
+    if (stubborn.empty())
+      place_nodes(model, curve, plan.segments);
+    else
+      undo(model.curves[curve.first]);
+  }
   return stubborn;
 }
 
@@ -118,13 +151,24 @@ DivisionReport report_on(const CurveModel& model) {
 }
 
 void add_changes(const CurveModel& model, const IntervalPlan& plan, DivisionReport& report) {
-  for (Index c = 0; c < model.curves.size(); ++c) {
-    const DividedCurve& curve = model.curves[c];
-    report.segments[curve.tag] = plan.segments[c];
-    if (plan.segments[c] == curve.segments) continue;
-    (plan.segments[c] > curve.segments ? report.more : report.fewer).push_back(curve.tag);
+  for (const WholeCurve& whole : whole_curves(model, plan.segments)) {
+    const DividedCurve& curve = model.curves[whole.first];
+    report.segments[curve.tag] = whole.planned;
+    if (!whole.is_changed()) continue;
+    if (whole.planned != whole.before) (whole.planned > whole.before ? report.more : report.fewer).push_back(curve.tag);
     if (!curve.carried) report.told.push_back(curve.tag);
   }
+}
+
+/// Whether a curve may get nodes other than Gmsh's.
+std::vector<bool> may_change(const CurveModel& model, const DivisionTask& task) {
+  std::vector<bool> may;
+  for (const DividedCurve& curve : model.curves)
+    may.push_back(curve.depends_on_size() && !task.kept_curves.count(curve.tag) && !task.given.count(curve.tag));
+  for (const BoundedSurface& surface : model.surfaces)
+    if (task.structured.count(surface.tag))
+      for (Index c : surface.boundary) may[c] = false;
+  return may;
 }
 
 }  // namespace
@@ -156,9 +200,10 @@ DivisionReport divide_curves(const DivisionTask& task) {
   constexpr int kRounds = 4;
   constexpr double kSimplePairing = 0;  // the only one of Gmsh's ways to recombine for which numbers may be odd
   const ScopedOption all("Mesh.RecombineAll", 0), algorithm("Mesh.RecombinationAlgorithm", kSimplePairing);
-  const std::optional<CurveModel> model = divide_as_wished(task.surfaces);
+  std::optional<CurveModel> model = divide_as_wished(task.surfaces);
   if (!model) return {};
   DivisionReport report = report_on(*model);
+  model = cut_at_facing_corners(*model, may_change(*model, task));
   std::set<Index> stubborn;
   for (int round = 0; round < kRounds; ++round) {
     const IntervalPlan plan = parity::plan_intervals(pose(*model, task, stubborn));
@@ -167,8 +212,8 @@ DivisionReport divide_curves(const DivisionTask& task) {
     if (!others.empty()) continue;
     if (std::any_of(model->surfaces.begin(), model->surfaces.end(),
                     [&](const BoundedSurface& surface) { return crosses_itself(*model, surface, plan.segments); })) {
-      for (Index c = 0; c < model->curves.size(); ++c)
-        if (plan.segments[c] != model->curves[c].segments) undo(model->curves[c]);
+      for (const WholeCurve& curve : whole_curves(*model, plan.segments))
+        if (curve.is_changed()) undo(model->curves[curve.first]);
       return {};
     }
     add_changes(*model, plan, report);

@@ -2,7 +2,9 @@
 #include "gmsh/divide/loops.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 namespace qmorph::adapter {
 
@@ -31,6 +33,23 @@ std::vector<Chain> loops_of(const CurveModel& model, const std::vector<Index>& b
     loops.push_back(std::move(loop));
   }
   return loops;
+}
+
+std::vector<std::size_t> corners_of(const CurveModel& model, const Chain& loop, double degrees) {
+  const double straight = std::cos(degrees * std::numbers::pi / 180);
+  // Where a curve begins and goes, or ends and comes from, as the loop runs.
+  const auto direction = [&](const DirectedCurve& c, bool at_end) -> Eigen::Vector3d {
+    const std::vector<Eigen::Vector3d>& p = model.curves[c.curve].points;
+    const bool at_back = at_end != c.turned;
+    const Eigen::Vector3d along = at_back ? p.back() - p[p.size() - 2] : p[1] - p[0];
+    return (c.turned ? -1 : 1) * along.normalized();
+  };
+  std::vector<std::size_t> corners;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const DirectedCurve& before = loop[(i + loop.size() - 1) % loop.size()];
+    if (direction(before, true).dot(direction(loop[i], false)) < straight) corners.push_back(i);
+  }
+  return corners;
 }
 
 }  // namespace qmorph::adapter

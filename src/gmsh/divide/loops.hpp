@@ -18,4 +18,7 @@ using Chain = std::vector<DirectedCurve>;
 /// Each from the curve with the least number on. Empty if the curves do not make up loops that meet nowhere.
 std::vector<Chain> loops_of(const CurveModel& model, const std::vector<Index>& boundary);
 
+/// Positions of the curves at whose beginning a loop turns by more than so many degrees.
+std::vector<std::size_t> corners_of(const CurveModel& model, const Chain& loop, double degrees);
+
 }  // namespace qmorph::adapter

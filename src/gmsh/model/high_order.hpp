@@ -20,8 +20,8 @@ int order_of(const EntityMesh& surface);
 /// The elements of a surface as it is, triangles first. Its own nodes may move. Points are numbered as they come.
 CurvedElements read_curved_elements(const ModelMesh& mesh, const EntityMesh& surface);
 
-/// The elements of a part's result, triangles first, of the order that the surface had before: quads with inner nodes (9
-/// for order 2) unless there were quads without (8). Sides of the input whose ends have not moved keep their nodes,
+/// The elements of a part's result, triangles first, of the order that the surface had before: quads with inner nodes
+/// (9 for order 2) unless there were quads without (8). Sides of the input whose ends have not moved keep their nodes,
 /// quads of the input all of theirs; what is new is straight.
 /// \pre of a higher order than 1
 /// \throws SurfaceError if Gmsh has no elements of that order

@@ -20,7 +20,7 @@ constexpr int kMenuWidth = 340, kGraphicsWidth = 1100, kGraphicsHeight = 720;
 /// What selectEntities() returns.
 constexpr int kGivenUp = 0, kSelected = 1, kUndone = 3, kEnded = 4;
 
-/// Of an element's sides: dark on light colours and on the background.
+/// Colour of the elements' sides, dark enough to stand out from light fills and from the background.
 constexpr int kMeshLines[] = {60, 60, 70};
 
 /// Hides all views for as long as this lives: Gmsh 4.8 crashes when a click hits one that is made of lists.
@@ -34,7 +34,7 @@ class HiddenViews {
   }
   ~HiddenViews() {
     try {
-      std::vector<int> all;  // some may have gone meanwhile
+      std::vector<int> all;  // some may be gone by now
       ::gmsh::view::getTags(all);
       for (int tag : hidden_)
         if (std::count(all.begin(), all.end(), tag)) set_option(visible(tag), 1);
@@ -147,7 +147,7 @@ void show_curves(bool visible) { set_option("Geometry.Curves", visible ? 1 : 0);
 void show_surface(int tag, bool visible) { ::gmsh::model::setVisibility({{2, tag}}, visible ? 1 : 0); }
 
 LiveWindow::LiveWindow() {
-  // No file that nobody has asked for, and no mesh but ours when a parameter changes.
+  // Gmsh must neither save files unasked nor mesh by itself when a parameter changes.
   set_option("Solver.AutoSaveDatabase", 0);
   set_option("Solver.AutoMesh", 0);
   set_option("General.MenuWidth", kMenuWidth);
@@ -159,7 +159,7 @@ LiveWindow::LiveWindow() {
 
 bool LiveWindow::is_open() const { return ::gmsh::fltk::isAvailable() > 0; }
 
-// Gmsh's calls would open a window that the user has closed.
+// Gmsh's calls would reopen a window that the user has closed.
 
 void LiveWindow::turn(double seconds) {
   if (is_open()) ::gmsh::fltk::wait(seconds);
@@ -176,7 +176,7 @@ void LiveWindow::status(const std::string& text) {
 }
 
 std::vector<int> LiveWindow::pick_surfaces() {
-  const ScopedOption drawn("Geometry.Surfaces", 1);  // by a cross, which can be clicked on
+  const ScopedOption drawn("Geometry.Surfaces", 1);  // each as a cross that can be clicked on
   const HiddenViews hidden;
   refresh();
   std::vector<int> tags;
@@ -191,7 +191,7 @@ std::vector<int> LiveWindow::pick_surfaces() {
       std::erase(tags, tag);
       if (what == kSelected) tags.push_back(tag);
     }
-    ::gmsh::fltk::setStatusMessage("surfaces: " + std::to_string(tags.size()) + "; e: that is all, q: give up");
+    ::gmsh::fltk::setStatusMessage("surfaces: " + std::to_string(tags.size()) + "; press e to finish, q to cancel");
   }
   std::sort(tags.begin(), tags.end());
   return tags;

@@ -16,11 +16,11 @@ struct LoadedState {
 
 LoadedState loaded_state();
 
-/// An empty model whose drawing goes to a script of that name, as soon as something is drawn.
+/// Starts an empty model. Once something is drawn in it, Gmsh writes it to a script of that name.
 void begin_drawing(const std::string& script);
 
-/// Parameters in the tree on the left (ONELAB). Names are paths, as "qmorph/01Size factor": numbers before a word give
-/// the order and are not shown.
+/// Parameters in the tree on the left (ONELAB). Names are paths, such as "qmorph/01Size factor"; the numbers give the
+/// order and are not shown.
 void define_parameters(const std::string& json);
 bool has_parameter(const std::string& name);
 void remove_parameter(const std::string& name);
@@ -29,43 +29,43 @@ std::string text_parameter(const std::string& name);
 void set_parameter(const std::string& name, double value);
 void set_parameter(const std::string& name, const std::string& value);
 
-/// Names and values of all others: those that a script has defined.
+/// Names and values of all parameters but ours: those that a script has defined.
 std::string other_parameters(const std::string& ours);
 
-/// What the button beside the gear says, and the action that a press is.
+/// What the button beside the gear says, and the action that pressing it asks for.
 void set_button(const std::string& label, const std::string& action);
 
-/// The action that has been asked for since the last call, or "". "check": a parameter has another value.
+/// The action that has been asked for since the last call, or "". "check": a parameter has changed.
 std::string take_action();
 
-/// As if a button had been pressed.
+/// Asks for an action as if its button had been pressed.
 void ask_for(const std::string& action);
 
 enum class Severity { information, warning };
 
-/// A line for the window's log; of several lines one each.
+/// Adds to the window's log, one entry for each line of the text.
 void log_line(const std::string& text, Severity severity = Severity::information);
 
-/// The mesh of surfaces by its lines.
+/// Draws the meshes of surfaces as lines.
 void set_mesh_look();
-/// What is drawn next is the mesh as it is now.
+/// Makes Gmsh draw the mesh as it is now, not as it was.
 void mesh_has_changed();
 void show_curves(bool visible);
 void show_surface(int tag, bool visible);
 
-/// The window from construction on. \pre a Session and a Display. Only in the main thread.
+/// The window, open from construction on. \pre a Session and a Display. Only in the main thread.
 class LiveWindow {
  public:
-  /// \throws UsageError if this Gmsh was built without it
+  /// \throws UsageError if this Gmsh was built without a window
   LiveWindow();
   bool is_open() const;
-  /// Handles what the user does, for at most so many seconds; without limit if negative, until something is done.
+  /// Handles what the user does, for at most this many seconds; if negative, until the user does something.
   void turn(double seconds);
   /// Shows parameters that have been set, and draws.
   void refresh();
   /// A line at the bottom.
   void status(const std::string& text);
-  /// Surfaces that the user clicks on, by tag; empty if they give up. The window lives on meanwhile.
+  /// The tags of the surfaces that the user clicks on, none if they cancel. The window stays alive meanwhile.
   std::vector<int> pick_surfaces();
 };
 

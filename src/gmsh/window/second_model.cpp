@@ -16,9 +16,9 @@ namespace qmorph::adapter {
 namespace {
 
 constexpr const char* kName = "Gmsh's recombine";
-constexpr double kGap = 0.1;  ///< between the two, in widths
+constexpr double kGap = 0.1;  ///< between the two models, as a share of the width
 
-/// What the window shows at least; the current model without a box.
+/// Makes the window show at least this box; with an empty one, the current model.
 void show_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   const bool any = (low.array() <= high.array()).all();
   const ScratchFile script(".geo");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Another model beside the one that is shown.
+/// A second model, shown beside the first.
 
 #include <Eigen/Core>
 #include <limits>
@@ -10,8 +10,8 @@
 
 namespace qmorph::adapter {
 
-/// Makes a model of the surfaces' triangles, to the right of where they are, and lets Gmsh recombine them. It is the
-/// current model as long as this lives; it is shown afterwards, too, until the next one replaces it.
+/// Copies the surfaces' triangles into a model of their own, to the right of the first, and has Gmsh recombine them.
+/// That model is current as long as this object lives; it is shown until the next one replaces it.
 class SecondModel {
  public:
   /// \throws InputError
@@ -22,11 +22,11 @@ class SecondModel {
 
  private:
   std::string first_;
-  /// Around both.
+  /// Box around both.
   Eigen::Vector3d low_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
 };
 
-/// Takes it away, if it is there.
+/// Removes it, if there is one.
 void remove_second_model();
 
 }  // namespace qmorph::adapter

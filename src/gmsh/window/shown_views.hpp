@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Views of Gmsh that show what we have to show.
+/// Our results as views in Gmsh's window.
 
 #include <Eigen/Core>
 #include <array>
@@ -17,8 +17,8 @@ struct ViewStyle {
   std::string name{};
   std::vector<Rgb> colours{};    ///< from `least` to `most`
   double least = 0, most = 1;    ///< values outside get the colours at the ends
-  bool scale = false;            ///< the colours are explained at the side
-  bool outlines = false;         ///< elements have their sides drawn
+  bool scale = false;            ///< a legend of the colours is shown
+  bool outlines = false;         ///< the sides of elements are drawn
   double width = 1, points = 4;  ///< of lines and points, in pixels
 };
 
@@ -45,14 +45,14 @@ class ViewData {
 /// Our views. Those of the user are not touched.
 class ShownViews {
  public:
-  /// Takes effect with style().
+  /// Call style() afterwards: only then does the style take effect.
   void add(const ViewStyle& style, const ViewData& data);
-  /// One value for each element of the current model that is named.
+  /// One value for each of these elements of the current model.
   void add_on_elements(const ViewStyle& style, const std::vector<std::size_t>& tags, const std::vector<double>& values);
-  /// Gives the views added since the last call their looks.
+  /// Applies the styles of the views added since the last call.
   void style();
   void clear();
-  /// They have gone with a model.
+  /// To be called when they have gone with their model.
   void forget() { tags_.clear(), script_.clear(); }
   std::size_t count() const { return tags_.size(); }
 
@@ -60,7 +60,7 @@ class ShownViews {
   void begin(const ViewStyle& style, int view);
 
   std::vector<int> tags_;
-  std::string script_;  ///< colours, which only a script can set
+  std::string script_;  ///< sets the colours, which only a script can
 };
 
 }  // namespace qmorph::adapter

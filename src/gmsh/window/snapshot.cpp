@@ -15,7 +15,7 @@ Snapshot take_snapshot() {
 }
 
 void restore(const Snapshot& snapshot) {
-  const ScopedOption quiet("General.Verbosity", 2);  // the user has asked for no file to be read
+  const ScopedOption quiet("General.Verbosity", 2);  // the file is ours; the user need not know that it is read
   const StageLog log = run_logged([&] {
     ::gmsh::model::mesh::clear();
     std::vector<const EntityMesh*> filled;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// The mesh of the current model as it is now, to go back to.
+/// A copy of the current model's mesh, to go back to.
 
 #include <vector>
 
@@ -18,11 +18,11 @@ struct Snapshot {
 /// \throws InputError as read_model_mesh() does
 Snapshot take_snapshot();
 
-/// The model gets the mesh that it had then, in the same order, whatever mesh it has now. \pre its entities are those
-/// that it had then. \throws InputError if Gmsh refuses a step
+/// Gives the model the mesh that it had then, in the same order, whatever mesh it has now. \pre the model has the same
+/// entities as then. \throws InputError if Gmsh refuses a step
 void restore(const Snapshot& snapshot);
 
-/// The model without any node or element.
+/// Removes all nodes and elements from the model.
 void clear_mesh();
 
 }  // namespace qmorph::adapter

@@ -37,7 +37,7 @@ bool is_set(const char* variable) {
   ::_exit(log.errors.empty() ? 0 : kNoWindow);
 }
 
-/// A function of the X library, which Gmsh's window brings along; null where it has none.
+/// A function of the X library, which Gmsh's window brings along; null if this one does without it.
 template <typename Function>
 Function* find_x(const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_DEFAULT, name));

@@ -6,8 +6,8 @@
 
 namespace qmorph::adapter {
 
-/// Where a window is to be opened, looked at before Gmsh's toolkit ends the process because there is nothing. To be kept
-/// until the window is there: some displays forget all when nobody looks at them any more.
+/// The display that a window is to be opened on. It is tried beforehand, since Gmsh's toolkit ends the process if there
+/// is none. Keep this until the window is open: some displays shut down when their last client leaves.
 class Display {
  public:
   Display();
@@ -23,7 +23,7 @@ class Display {
 };
 
 /// Opens a mesh file in Gmsh's window and waits until it is closed. The window lives in a process of its own, since its
-/// toolkit ends the process where it finds no display. \return what went wrong, or an empty string
+/// toolkit ends the process if it finds no display. \return what went wrong, or an empty string
 std::string show_in_window(const std::string& path);
 
 }  // namespace qmorph::adapter

@@ -35,7 +35,7 @@ void save(const std::string& path, const fmt::memory_buffer& text) {
 
 constexpr std::array<std::string_view, 5> kFamilies = {"CPS", "CPE", "CAX", "S", "M3D"};
 
-/// Abaqus' name of an element type: for surfaces the family, the number of nodes, and R for reduced integration.
+/// Abaqus' name for an element type: for surfaces the family, the number of nodes, and R for reduced integration.
 std::string abaqus_type(const ElementType& type, const std::string& family) {
   if (type.dim == 2 && (type.nodes == 3 || type.nodes == 4 || type.nodes == 6 || type.nodes == 8)) {
     const bool reduced = family.back() == 'R';
@@ -55,7 +55,7 @@ int vtk_type(const ElementType& type) {
   return type.corners == 4 ? 10 : type.corners == 5 ? 14 : type.corners == 6 ? 13 : 12;
 }
 
-/// Names of sets: no blanks, no quotes, and not of digits alone.
+/// Names of sets: without blanks or quotes, and not only digits.
 std::string set_name(int dim, int tag) {
   std::string name = group_name(dim, tag);
   if (name.empty())
@@ -67,7 +67,7 @@ std::string set_name(int dim, int tag) {
 
 void append_set(fmt::memory_buffer& text, const char* keyword, const std::string& name,
                 const std::set<std::size_t>& numbers) {
-  constexpr std::size_t kPerLine = 10;  // 16 at most
+  constexpr std::size_t kPerLine = 10;  // readers take up to 16
   fmt::format_to(std::back_inserter(text), "*{}, {}={}\n", keyword, keyword, name);
   std::size_t i = 0;
   for (std::size_t number : numbers)
@@ -92,7 +92,7 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
   fmt::format_to(out, "$Nodes\n{}\n", mesh.nodes.size());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     fmt::format_to(out, "{} {} {} {}\n", i + 1, mesh.nodes[i].x(), mesh.nodes[i].y(), mesh.nodes[i].z());
-  // MFEM takes no attribute below 1, if the mesh has no groups at all.
+  // MFEM takes no attribute below 1, even if the mesh has no groups at all.
   const int none = consumer.name == "mfem" ? 1 : 0;
   fmt::format_to(out, "$EndNodes\n$Elements\n{}\n", mesh.elements.size());
   for (std::size_t i = 0; i < mesh.elements.size(); ++i) {
@@ -116,12 +116,12 @@ void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const st
 std::string choose_family(const std::string& asked, ConsumerMesh& mesh) {
   const std::optional<Eigen::Vector3d> off = find_off_plane(mesh, 0);
   if (!off)
-    for (Eigen::Vector3d& p : mesh.nodes) p.z() = 0;  // a reader may take z = 1e-17 for another place
+    for (Eigen::Vector3d& p : mesh.nodes) p.z() = 0;  // a reader may take z = 1e-17 for another height
   const bool in_space = off && dimension(mesh) == 2;
   if (in_space && asked.rfind('C', 0) == 0)
-    mesh.complaints.push_back(
-        fmt::format("elements {} lie in the plane z = 0, and this mesh has a node at {}; --elements S makes shells",
-                    asked, describe(*off)));
+    mesh.complaints.push_back(fmt::format(
+        "elements {} must lie in the plane z = 0, and this mesh has a node at {}; --elements S makes shells", asked,
+        describe(*off)));
   return !asked.empty() ? asked : in_space ? "S" : "CPS";
 }
 
@@ -166,7 +166,7 @@ void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const st
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "*HEADING\nqmorph\n*NODE\n");
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    // CalculiX takes 20 characters for a number and not one more.
+    // CalculiX takes at most 20 characters for a number.
     fmt::format_to(out, "{}, {:.13g}, {:.13g}, {:.13g}\n", i + 1, mesh.nodes[i].x(), mesh.nodes[i].y(),
                    mesh.nodes[i].z());
   const int dim = dimension(mesh);

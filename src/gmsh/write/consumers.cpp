@@ -24,14 +24,14 @@ namespace qmorph::adapter {
 namespace {
 
 constexpr std::array kConsumers = {
-    // grid_in.cc: a boundary id on an inner face is an exception; quads are reordered only if there is nothing else.
+    // grid_in.cc: throws for a boundary id on an inner face; reorders quads only if there are no other elements.
     Consumer{.name = "dealii",
              .title = "deal.II",
              .format = "msh2",
              .only_quads = true,
              .inner_lines = false,
              .oriented = true},
-    // gmsh.cpp: attributes all positive; one order in a file.
+    // gmsh.cpp: all attributes positive; one order in a file.
     Consumer{.name = "mfem", .title = "MFEM", .format = "msh2", .max_order = 10, .oriented = true, .periodic = true},
     // gmsh.py: every cell tagged exactly once; no 8-node quads; node numbers without gaps.
     Consumer{.name = "dolfinx",
@@ -63,8 +63,8 @@ constexpr std::array kConsumers = {
              .oriented = true},
     // gmshToFoam.C: version 2 in ASCII; quads are patches of the cells behind them.
     Consumer{.name = "openfoam", .title = "gmshToFoam", .format = "msh2", .needs_volumes = true},
-    // LibGmsh2Specfem: the first element says by its type whether there are 4 or 9 nodes, and must be a line; names are
-    // looked up, and one that is missing ends it.
+    // LibGmsh2Specfem: the first element must be a line, and its type says whether quads have 4 or 9 nodes; a name that
+    // is missing ends the program.
     Consumer{.name = "specfem2d",
              .title = "SPECFEM2D",
              .format = "msh2",
@@ -79,7 +79,7 @@ constexpr std::array kConsumers = {
 
 using Edge = std::pair<std::size_t, std::size_t>;
 
-/// Sides of surface elements, with how many elements each has.
+/// How many surface elements there are at each edge.
 std::map<Edge, int> count_sides(const ModelMesh& mesh) {
   std::map<Edge, int> count;
   for (const EntityMesh& entity : mesh.entities) {
@@ -111,7 +111,7 @@ class ConsumerMeshBuilder {
   void add_entity(const EntityMesh& entity);
   void complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups);
   void add_links();
-  /// What there is, of what readers ask for.
+  /// Counts of what readers are particular about.
   struct Census {
     std::size_t triangles = 0, volumes = 0, grouped_lines = 0;
     std::size_t curved_quads_with_middle = 0, curved_quads_without_middle = 0;
@@ -131,7 +131,7 @@ class ConsumerMeshBuilder {
   bool everything_;
   double scale_ = get_option("Mesh.ScalingFactor");
   std::map<Edge, int> sides_;
-  std::unordered_set<std::size_t> joined_;  ///< nodes of elements that are no points
+  std::unordered_set<std::size_t> joined_;  ///< nodes of elements other than points
   std::map<std::size_t, std::size_t> numbers_;
   ConsumerMesh result_;
   std::set<int> signs_;  // of the surfaces' groups: 1 in one, 0 in none
@@ -150,14 +150,14 @@ bool ConsumerMeshBuilder::is_inner_line(const ElementBlock& block, std::size_t i
 
 void ConsumerMeshBuilder::complain_of_groups(const EntityMesh& entity, const std::vector<int>& groups) {
   if (groups.size() > 1 && entity.dim >= 1)
-    result_.complaints.push_back(fmt::format("{} {} is in {} physical groups, and {} takes one for each element",
+    result_.complaints.push_back(fmt::format("{} {} is in {} physical groups, and {} takes one per element",
                                              entity.dim == 1 ? "curve" : "surface", entity.tag, groups.size(),
                                              consumer_.title));
   if (entity.dim != 2) return;
   signs_.insert(groups.empty() ? 0 : 1);
   if (groups.empty() && consumer_.needs_surface_groups)
-    result_.complaints.push_back(
-        fmt::format("surface {} is in no physical group, and {} wants every cell tagged", entity.tag, consumer_.title));
+    result_.complaints.push_back(fmt::format("surface {} is in no physical group, and {} needs a tag for every cell",
+                                             entity.tag, consumer_.title));
 }
 
 void ConsumerMeshBuilder::add_entity(const EntityMesh& entity) {
@@ -169,7 +169,7 @@ void ConsumerMeshBuilder::add_entity(const EntityMesh& entity) {
   for (const ElementBlock& block : entity.blocks)
     for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
       if (entity.dim == 1 && !consumer_.inner_lines && is_inner_line(block, i)) continue;
-      // A node that hangs on nothing is a row of zeros in a matrix. In decks one may be meant, to tie others to.
+      // A node without elements is a row of zeros in a matrix. In decks one may be intended, to tie others to.
       const bool may_be_loose = consumer_.format == "inp" && !groups.empty();
       if (entity.dim == 0 && !may_be_loose && !joined_.count(block.nodes[i])) continue;
       ConsumerElement element{entity.dim, block.type, entity.tag, groups, {}};
@@ -193,11 +193,11 @@ void ConsumerMeshBuilder::complain_of_names() {
       wrong += fmt::format("{}{} \"{}\"", wrong.empty() ? "" : ", ", group.tag, group.name);
   }
   if (!missing.empty())
-    result_.complaints.push_back(fmt::format("{} wants physical curves Top, Bottom, Left and Right, and there is no {}",
+    result_.complaints.push_back(fmt::format("{} needs physical curves Top, Bottom, Left and Right, and there is no {}",
                                              consumer_.title, fmt::join(missing, ", ")));
   if (!wrong.empty())
     result_.complaints.push_back(
-        fmt::format("{} wants physical surfaces to be named M1, M2, ..., and there is {}", consumer_.title, wrong));
+        fmt::format("{} needs physical surfaces to be named M1, M2, ..., and there is {}", consumer_.title, wrong));
 }
 
 /// How many elements of each kind the reader would get.
@@ -223,31 +223,32 @@ void ConsumerMeshBuilder::complain_of_elements() {
   const auto say = [&](const std::string& what) { result_.complaints.push_back(what); };
   if (census.triangles && consumer_.only_quads)
     say(fmt::format(
-        "{} triangle{} left, and {} wants quads alone; an even number of sides around each surface leaves none",
+        "{} triangle{} left, and {} takes quads only; an even number of sides around each surface leaves none",
         census.triangles, census.triangles == 1 ? " is" : "s are", consumer_.title));
   if (!census.volumes && consumer_.needs_volumes)
     say(fmt::format(
         "there are no cells of dimension 3, and {} reads no others; extrude the quads by one layer, or use -3",
         consumer_.title));
   if (!census.grouped_lines && consumer_.needs_curve_groups)
-    say(fmt::format("no curve is in a physical group, and {} would have no marker", consumer_.title));
+    say(fmt::format("no curve is in a physical group, so {} would have no marker", consumer_.title));
   if (const int order = census.orders.empty() ? 1 : *census.orders.rbegin(); order > consumer_.max_order)
-    say(fmt::format("its elements are of order {}, and {} takes order {} at most", order, consumer_.title,
+    say(fmt::format("the elements are of order {}, and {} takes order {} at most", order, consumer_.title,
                     consumer_.max_order));
   if (census.orders.size() > 1)
-    say(fmt::format("its elements are of orders {}, and {} takes one for all", fmt::join(census.orders, " and "),
-                    consumer_.title));
+    say(fmt::format("the elements are of orders {}, and {} takes only one order in a file",
+                    fmt::join(census.orders, " and "), consumer_.title));
   if (consumer_.specfem_names) complain_of_names();
   complain_of_middle_nodes(census);
   if (consumer_.name == "mfem" && signs_.size() > 1)
-    say("some surfaces are in a physical group and some are not: a non-positive element attribute for MFEM");
+    say("some surfaces are in a physical group and some are not, which makes a non-positive element attribute for "
+        "MFEM");
 }
 
 /// Quads of order 2 have 8 nodes, or 9 with the one in the middle.
 void ConsumerMeshBuilder::complain_of_middle_nodes(const Census& census) {
   if (consumer_.max_order < 2 || consumer_.name == "elmer") return;  // it takes both
   if (!(consumer_.wants_incomplete ? census.curved_quads_with_middle : census.curved_quads_without_middle)) return;
-  result_.complaints.push_back(fmt::format("{} wants quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})",
+  result_.complaints.push_back(fmt::format("{} needs quads with {} nodes (-setnumber Mesh.SecondOrderIncomplete {})",
                                            consumer_.title, consumer_.wants_incomplete ? "8" : "9",
                                            consumer_.wants_incomplete ? 1 : 0));
 }
@@ -256,11 +257,11 @@ void ConsumerMeshBuilder::complain_of_height() {
   const double z = result_.nodes.empty() ? 0 : result_.nodes.front().z();
   if (const std::optional<Eigen::Vector3d> off = find_off_plane(result_, z))
     result_.complaints.push_back(
-        fmt::format("{} takes surfaces in a plane z = constant alone, and this mesh has nodes at {} and at {}",
+        fmt::format("{} takes surfaces only in a plane z = constant, and this mesh has nodes at {} and at {}",
                     consumer_.title, describe(result_.nodes.front()), describe(*off)));
 }
 
-/// Only nodes that the reader gets.
+/// Links between nodes that the reader gets.
 void ConsumerMeshBuilder::add_links() {
   for (const int dim : {0, 1, 2})
     for (PeriodicLink& link : read_periodic_links(mesh_, dim)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What the programs that read our meshes ask for, and a mesh in their terms.
+/// What the programs that read our meshes need, and a mesh made for them.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -20,61 +20,60 @@ struct Consumer {
   std::string_view format;  ///< "msh2" (ASCII), "inp" or "su2"
   int max_order = 1;
   bool wants_incomplete = false;  ///< 8 nodes for order 2
-  bool only_quads = false;        ///< a triangle in it cannot be read, or is read and then spoils the computation
+  bool only_quads = false;        ///< triangles cannot be read, or spoil the computation later
   bool needs_volumes = false;     ///< reads cells of dimension 3 only
   bool inner_lines = true;        ///< takes line elements between two surface elements
   bool points = true;             ///< takes point elements
   bool specfem_names = false;     ///< curves Top, Bottom, Left and Right; surfaces M1, M2, ...
   bool needs_surface_groups = false;
   bool needs_curve_groups = false;
-  bool planar = false;    ///< knows no z: surfaces alone lie in one plane z = constant
-  bool oriented = false;  ///< neighbours must agree, and planar meshes be counterclockwise: `orient_surfaces` first
-  bool periodic = false;  ///< knows which nodes are images of others
+  bool planar = false;    ///< ignores z: a mesh of surfaces has to lie in one plane z = constant
+  bool oriented = false;  ///< elements oriented alike, counterclockwise in a plane: call `orient_surfaces` first
+  bool periodic = false;  ///< reads which nodes are periodic images of others
 };
 
 /// \throws UsageError that lists the names
 const Consumer& find_consumer(const std::string& name);
 
-/// An element of what is written.
+/// An element to be written.
 struct ConsumerElement {
   int dim = 0, type = 0;  ///< Gmsh's number of the type
   int entity = 0;
-  std::vector<int> groups;         ///< physical ones
+  std::vector<int> groups;         ///< physical groups
   std::vector<std::size_t> nodes;  ///< from 1
 };
 
-/// The mesh as the reader gets it: numbers from 1 without gaps, no node that nothing uses.
+/// The mesh as the reader gets it: numbered from 1 without gaps, without unused nodes.
 struct ConsumerMesh {
   std::vector<Eigen::Vector3d> nodes;
   std::vector<ConsumerElement> elements;  ///< points, lines, surfaces, volumes
-  std::vector<PeriodicLink> links;        ///< for readers that know them
+  std::vector<PeriodicLink> links;        ///< for readers that know about them
   std::vector<std::string> complaints;    ///< why the reader would not take it
 };
 
 /// Collects the current model for a reader.
-/// \param everything also what is in no physical group although there are groups
+/// \param everything includes what is in no physical group even if there are groups
 ConsumerMesh collect_for(const Consumer& consumer, bool everything);
 
-/// The largest one of an element.
+/// The largest dimension of an element.
 int dimension(const ConsumerMesh& mesh);
 
-/// The first node that is not at this height, by more than rounding.
+/// The first node that is farther from this height than rounding explains.
 std::optional<Eigen::Vector3d> find_off_plane(const ConsumerMesh& mesh, double z);
 
 /// Writes MSH 2.2 in ASCII. \throws OutputError
 void write_msh2_for(const Consumer& consumer, const ConsumerMesh& mesh, const std::string& path);
 
-/// Writes a deck with nodes, elements of the dimension of the mesh, and sets of both for each physical group. Lines are
-/// sets of nodes and no elements, which would be trusses.
-/// \param family of the surface elements, by which their names begin and end: CPS (plane stress: CPS4, CPS8), CPE
-///        (plane strain), CAX (axisymmetric), S (shells), M3D (membranes), each with an R behind it for reduced
-///        integration
+/// Writes a deck with nodes, elements of the mesh's dimension, and sets of both for each physical group. Lines become
+/// sets of nodes, since as elements they would be trusses.
+/// \param family of the surface elements: CPS (plane stress: CPS4, CPS8), CPE (plane strain), CAX (axisymmetric), S
+///        (shells), M3D (membranes), each with an R after it for reduced integration
 /// \throws OutputError
 void write_inp_for(const ConsumerMesh& mesh, const std::string& family, const std::string& path);
 
-/// The family that a deck's surface elements are of: what is asked for, if anything, or CPS in the plane z = 0 and S
-/// elsewhere, where CalculiX stops at the others. Complains of a mesh that is not where it has to be; puts what rounding has
-/// left beside that plane into it.
+/// The family of a deck's surface elements: the one asked for, if any, else CPS in the plane z = 0 and S elsewhere,
+/// where CalculiX does not take the others. Complains of a mesh that is not in that plane though its family requires
+/// it, and moves nodes into the plane that only rounding has left beside it.
 std::string choose_family(const std::string& asked, ConsumerMesh& mesh);
 
 /// Whether a deck can have such elements.

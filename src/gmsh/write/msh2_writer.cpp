@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 20;
 
-/// Text and binary numbers on their way to a file.
+/// Writes text and binary numbers to a file.
 class Output {
  public:
   Output(const std::string& path, bool is_binary) : binary(is_binary), file_(path, std::ios::binary) {}
@@ -66,7 +66,7 @@ std::int32_t int32(std::size_t tag) {
 void write_header(Output& out) {
   out.text("$MeshFormat\n2.2 {} {}\n", out.binary ? 1 : 0, sizeof(double));
   if (out.binary) {
-    out.raw(std::int32_t{1});  // by which a reader sees the order of the bytes
+    out.raw(std::int32_t{1});  // tells readers the byte order
     out.text("\n");
   }
   out.text("$EndMeshFormat\n");
@@ -106,11 +106,11 @@ void write_nodes(Output& out, const ModelMesh& mesh) {
 /// An entity as version 2 sees it.
 struct Place {
   int elementary = 0;
-  std::vector<int> groups;      ///< at least one: 0 is none
+  std::vector<int> groups;      ///< at least one; 0 means none
   std::vector<int> partitions;  ///< empty in a mesh that has none
 };
 
-/// \return nothing for what Gmsh made between the partitions: the file does not have it
+/// \return nothing for entities that Gmsh made between partitions, which the file does not have
 std::optional<Place> find_place(const EntityMesh& entity, const Msh2Origin& origin) {
   Place place;
   int parent_dim = -1, parent_tag = -1;
@@ -190,7 +190,7 @@ void ElementWriter::write_block(const ElementBlock& block, const Place& place, i
   }
 }
 
-/// Text in binary files too, as Gmsh has it.
+/// As text in binary files, too, as Gmsh does it.
 void write_periodic(Output& out, const ModelMesh& mesh) {
   std::vector<PeriodicLink> links;
   for (int dim : {0, 1, 2, 3}) {

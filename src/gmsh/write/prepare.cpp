@@ -24,13 +24,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// An element of a surface, by where it stands.
+/// Where an element of a surface is stored.
 struct Place {
   std::uint32_t entity = 0;
-  std::size_t block = 0, first = 0;  ///< of its nodes
+  std::size_t block = 0, first = 0;  ///< `first` of its nodes
 };
 
-/// The surface elements of a model, as far as their corners are concerned.
+/// The surface elements of a model, by their corners alone.
 struct SurfaceElements {
   std::vector<std::array<Index, 3>> triangles;
   std::vector<std::array<Index, 4>> quads;
@@ -71,7 +71,7 @@ Vector3d area_vector(const ModelMesh& mesh, const SurfaceElements& all, std::siz
                                         : area(all.quads[element - all.triangles.size()]);
 }
 
-/// Turns whole parts over that are flat and show their back.
+/// Turns over whole parts that are flat and show their back.
 void show_fronts(const ModelMesh& mesh, const SurfaceElements& all, Orientation& orientation) {
   constexpr double kFlat = 1e-6;
   std::vector<Vector3d> sums(orientation.parts, Vector3d::Zero());
@@ -91,14 +91,14 @@ void show_fronts(const ModelMesh& mesh, const SurfaceElements& all, Orientation&
     if (turned[orientation.part[e]]) orientation.flip[e] = !orientation.flip[e];
 }
 
-/// Walks an element round the other way, from the same corner. Orders 1 and 2.
+/// Reverses the nodes of an element, which keeps its first corner. Orders 1 and 2.
 void turn(ElementBlock& block, std::size_t first) {
   const auto at = [&](std::size_t i) { return block.nodes.begin() + static_cast<std::ptrdiff_t>(first + i); };
   std::reverse(at(1), at(block.corners));
   if (block.order == 2) std::reverse(at(block.corners), at(2 * block.corners));
 }
 
-/// Changed entities take the place of the model's. What is periodic stays so: no node has another number.
+/// Puts the changed entities in the place of the model's. Periodic links stay valid, since node numbers do not change.
 void exchange(const ModelMesh& mesh, const std::vector<EntityMesh>& entities, const std::set<std::uint32_t>& changed) {
   const std::vector<PeriodicLink> links = read_periodic_links(mesh);
   std::vector<Replacement> replacements;
@@ -112,7 +112,7 @@ bool has_volume_elements(const ModelMesh& mesh) {
                      [](const EntityMesh& entity) { return entity.dim == 3 && entity.element_count() > 0; });
 }
 
-/// Neighbours that run along their edge in one direction all the same.
+/// Counts the edges whose two elements still run along them in the same direction.
 std::size_t count_conflicts(const std::vector<Side>& sides, const Orientation& orientation) {
   std::size_t conflicts = 0;
   for_each_edge(sides, [&](std::span<const Side> edge) {
@@ -175,7 +175,7 @@ void drop_middle_nodes() {
   if (changed.empty()) return;
   for (const EntityMesh& entity : entities)
     for (const ElementBlock& block : entity.blocks)
-      for (const std::size_t node : block.nodes) middle.erase(node);  // somebody else's
+      for (const std::size_t node : block.nodes) middle.erase(node);  // of another element, too
   for (const std::uint32_t e : changed) {
     const EntityMesh& before = mesh.entities[e];
     EntityMesh& entity = entities[e];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What readers ask of a model before it is written: changes of the model that are no changes of the mesh.
+/// Prepares a model for those who read its file. The mesh keeps its shape.
 
 #include <cstddef>
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace qmorph::adapter {
 
-/// Turns surface elements so that neighbours agree, also across surfaces, and flat parts show their front:
-/// counterclockwise in the x-y plane, in others towards the axis that they face most. Nothing happens to models with
-/// volume elements.
+/// Orients surface elements alike, also across surfaces, so that flat parts are seen from the front: counterclockwise
+/// in the x-y plane, elsewhere as seen from the positive side of the axis that they face most. Models with volume
+/// elements are left as they are.
 /// \throws InputError for an element of order 3 or more that would have to be turned
-/// \return what cannot be, or an empty string
+/// \return what cannot be oriented, or an empty string
 std::string orient_surfaces();
 
-/// Quads of order 2 get 8 nodes in the place of 9: the one in the middle goes.
+/// Quads of order 2 get 8 nodes instead of 9: the one in the middle is removed.
 /// \throws InputError
 void drop_middle_nodes();
 
-/// Points that no curve ends in and no surface has lose their element and their node.
+/// Removes the elements and nodes of points that belong to no curve and no surface.
 void drop_loose_points();
 
 }  // namespace qmorph::adapter

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Less than one buffer of the C library: whoever wrote last may not have got all of it to the disk, and most of
-/// Gmsh's writers do not look.
+/// About one buffer of the C library: with less room than this the last of it may not have reached the disk, and most
+/// of Gmsh's writers do not check.
 constexpr unsigned long kLeastRoom = 8192;
 
 [[noreturn]] void fail(const std::string& target, const std::string& reason) {
@@ -54,13 +54,13 @@ bool disk_is_full(const std::string& path) {
   return ::statvfs(path.c_str(), &room) == 0 && room.f_blocks > 0 && room.f_bavail * room.f_frsize < kLeastRoom;
 }
 
-/// Whoever shares the folder, from whatever machine or container: process ids are no names.
+/// Process ids would not do: other machines and containers may share the folder.
 std::string random_name() {
   std::random_device device;
   return fmt::format(".qmorph-tmp-{:08x}{:08x}", device(), device());
 }
 
-/// \return what the target is, through all links
+/// \return the target with all links followed
 fs::path checked_place(const std::string& target) {
   const fs::path resolved = resolve(target);
   std::error_code error;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Files that are either whole or not there.
+/// Files that appear whole or not at all.
 
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace qmorph::adapter {
 
-/// Looks whether a file can be put there. \throws OutputError if the target is no regular file, or its directory is
-/// missing or not writable
+/// Checks that a file can be written there. \throws OutputError if the target is not a regular file, or its directory
+/// is missing or not writable
 void check_place(const std::string& target);
 
-/// A temporary file beside the file that it will become. What is not committed is removed.
+/// A temporary file beside the file that it will become. Unless it is committed, it is removed.
 class StagedFile {
  public:
-  /// Makes the file, under a name that nobody else has.
+  /// Creates the file, under a name of its own.
   /// \param extension of the temporary file, since Gmsh chooses the format by it
-  /// \param names where its name stands as long as it is there; may be null
+  /// \param names holds its name for as long as it exists; may be null
   /// \throws OutputError as check_place()
   explicit StagedFile(const std::string& target, const std::string& extension = {}, TemporaryNames* names = nullptr);
   ~StagedFile();
@@ -28,7 +28,7 @@ class StagedFile {
   const std::string& path() const { return path_; }
   /// For small files. \throws OutputError
   void write_text(const std::string& text);
-  /// Does all that can fail for want of room or rights: of several files, prepare all before committing the first.
+  /// Does all that can fail for lack of space or permissions: prepare all files before committing the first.
   /// \throws OutputError
   void prepare();
   /// Makes the file durable and gives it the target's name. \throws OutputError

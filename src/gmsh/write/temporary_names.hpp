@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Files that are there for the time being.
+/// The names of temporary files.
 
 #include <array>
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace qmorph::adapter {
 
-/// Their names, in plain memory that two processes may share: where the one that makes the files ends before it can
-/// remove them, the other one does.
+/// In plain memory that two processes may share: if the one that makes the files ends before it can remove them, the
+/// other one does.
 class TemporaryNames {
  public:
-  /// To be said before there is a file. More names than there is room for are not kept.
+  /// Call this before the file is created. Names beyond the room that there is are not kept.
   void add(const std::string& path);
   void drop(const std::string& path);
   void remove_files();

@@ -101,7 +101,7 @@ double choose_version(const OutputFormat& format, const OpenedModel& opened, con
   return opened.msh.version >= 2 && opened.msh.version < 3 ? 2.2 : opened.msh.version;
 }
 
-/// Entities with elements and without a physical group, which the old formats leave out if there is any group at all.
+/// Entities that have elements but no physical group; the old formats leave them out if there is any group at all.
 ::gmsh::vectorpair ungrouped_entities() {
   ::gmsh::vectorpair entities, ungrouped;
   ::gmsh::model::getEntities(entities);
@@ -116,8 +116,8 @@ double choose_version(const OutputFormat& format, const OpenedModel& opened, con
   return ungrouped;
 }
 
-/// Before version 4, Mesh.SaveAll drops the groups and its absence drops what is in no group.
-/// A group with the number 0 is what these formats write, and read, for "none".
+/// Puts what is in no group into group 0, as long as this lives. Before version 4, Mesh.SaveAll = 1 drops the groups,
+/// and 0 drops what is in none; group 0 is what these formats write, and read, as "none".
 class GroupZero {
  public:
   GroupZero() {
@@ -144,13 +144,13 @@ bool has_groups() {
   return !groups.empty();
 }
 
-/// Our own writer keeps the tags, and the partitions.
+/// Whether our own writer is used, which keeps tags and partitions.
 bool keeps_tags_of_msh2(double version, const OpenedModel& opened) {
   return version == 2.2 && (opened.msh.is_2() || !opened.views.steps.empty());
 }
 
-/// What is in no physical group is left out if there are groups; but a mesh that is there already is expected to come
-/// out whole, and MSH has room for it.
+/// Where there are groups, Gmsh leaves out what is in none. But a mesh that was read is expected to come out whole
+/// where the format allows it, as MSH does.
 bool leaves_out_ungrouped(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
   if (!has_groups() || get_option("Mesh.SaveAll") != 0) return false;
   const bool keeps_all = plan.for_reader || plan.format.is_msh;
@@ -175,8 +175,8 @@ void write_msh(const std::string& path, double version, bool everything) {
   }
 }
 
-/// Some writers put the path of their file into it, which is that of a temporary one. The name that the file will have
-/// takes its place, filled up with blanks.
+/// Some writers put the path of their file into it, here that of a temporary one. It is replaced by the file's final
+/// name, padded with blanks.
 void call_by_its_name(const std::string& written, const std::string& target) {
   constexpr std::streamsize kHead = 4096;
   std::fstream file(written, std::ios::in | std::ios::out | std::ios::binary);
@@ -206,7 +206,7 @@ bool are_surfaces_in_space() {
   return false;
 }
 
-/// Gmsh calls all elements of surfaces plane-stress ones, which solvers want in the plane z = 0.
+/// Gmsh writes all surface elements as plane-stress ones, which solvers expect in the plane z = 0.
 void name_shells(const std::string& written) {
   const std::string of_gmsh = "*ELEMENT, type=CPS", shell = "*ELEMENT, type=S";
   std::ifstream in(written, std::ios::binary);
@@ -220,7 +220,7 @@ void name_shells(const std::string& written) {
   std::ofstream(written, std::ios::binary) << named;
 }
 
-/// Gmsh has the keyword of linear quads for those of order 2, too, and its own readers then read half of each.
+/// Gmsh writes the keyword of linear quads for those of order 2, too, and its own reader then reads half of each.
 void name_quads_of_order_2(const std::string& written) {
   const std::string linear = "\n Quadrilaterals\n", quadratic = "\n QuadrilateralsQ2\n";
   std::ifstream in(written, std::ios::binary);
@@ -232,14 +232,14 @@ void name_quads_of_order_2(const std::string& written) {
   std::ofstream(written, std::ios::binary) << text;
 }
 
-/// In a format other than MSH.
+/// Writes a format other than MSH.
 void write_other(const OutputPlan& plan, const std::string& path) {
   std::vector<int> types;
   ::gmsh::model::mesh::getElementTypes(types, 2);
   const bool second_order =
       std::any_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 2; });
   {
-    const ScopedOption order("Mesh.ElementOrder", second_order ? 2 : 1);  // which tells the writer what it writes
+    const ScopedOption order("Mesh.ElementOrder", second_order ? 2 : 1);  // from this the writer knows the order
     ::gmsh::write(path);
   }
   call_by_its_name(path, plan.path);
@@ -253,7 +253,7 @@ bool has_elements_of(int type, int dim) {
   return std::count(types.begin(), types.end(), type) > 0;
 }
 
-/// Gmsh does not notice when the disk is full. A whole .msh file ends with an $End line, in binary too.
+/// Gmsh does not notice when the disk is full. A complete .msh file ends with an $End line, in binary too.
 void check_msh_end(const std::string& written, const std::string& target) {
   std::ifstream in(written, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::streamoff>(in.tellg());
@@ -263,7 +263,7 @@ void check_msh_end(const std::string& written, const std::string& target) {
   const std::size_t last_line = tail.rfind("\n$");
   if (tail.empty() || tail.back() != '\n' || last_line == std::string::npos ||
       (tail.compare(last_line, 5, "\n$End") != 0 && tail.compare(last_line, 5, "\n$END") != 0))
-    throw OutputError(fmt::format("cannot write {}: the file is not complete; is the disk full?", target));
+    throw OutputError(fmt::format("cannot write {}: the file is incomplete; is the disk full?", target));
 }
 
 }  // namespace
@@ -308,22 +308,22 @@ void check_elements(const OutputPlan& plan, int order) {
     throw OutputError(fmt::format("cannot write {}: {}", plan.name, why));
   };
   if (order > plan.format.max_order)
-    refuse(fmt::format("the format {} has no elements of order {} that its readers know, only up to {} (-order {})",
-                       plan.format.name, order, plan.format.max_order, plan.format.max_order));
+    refuse(fmt::format("the readers of {} know elements up to order {} only, and the mesh has order {} (-order {})",
+                       plan.format.name, plan.format.max_order, order, plan.format.max_order));
   if (order == 2 && plan.format.quad_nodes == 9 && has_elements_of(kQuad8, 2))
     refuse(
-        fmt::format("the format {} has quads of 9 nodes for order 2, and the mesh has some of 8 "
+        fmt::format("the format {} has quads with 9 nodes for order 2, and the mesh has some with 8 "
                     "(-setnumber Mesh.SecondOrderIncomplete 0, or -order 1)",
                     plan.format.name));
   if (order == 2 && plan.format.name == "bdf" && has_elements_of(kLine3, 1) && !has_groups())
-    refuse("the format bdf has no lines of order 2; put the surfaces alone in physical groups, or use -order 1");
+    refuse("the format bdf has no lines of order 2; put only the surfaces into physical groups, or use -order 1");
 }
 
 void prepare_for_format(const OutputPlan& plan) {
   if (plan.format.quad_nodes == 8) drop_middle_nodes();
-  if (plan.format.name == "su2") drop_loose_points();  // it takes every node for one of an element
+  if (plan.format.name == "su2") drop_loose_points();  // it expects every node to belong to an element
   if (plan.format.name != "diff") return;
-  // Gmsh's writer has room for as many nodes as it writes, and finds it by their numbers.
+  // Gmsh's writer uses the numbers of nodes as indices into an array that is only as long as there are nodes.
   run_logged([] { ::gmsh::model::mesh::reclassifyNodes(); });
   renumber();
 }

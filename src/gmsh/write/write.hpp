@@ -14,11 +14,11 @@ namespace qmorph::adapter {
 /// A file format of Gmsh's `-format` option.
 struct OutputFormat {
   std::string name;
-  std::string extension;   ///< by which Gmsh's API chooses the format, with the dot
+  std::string extension;   ///< with the dot; Gmsh's API chooses the format by it
   double msh_version = 0;  ///< 0 if it is not MSH, or MSH in whatever version fits
   bool is_msh = false;
   int max_order = 1;   ///< of elements that the format's readers know
-  int quad_nodes = 0;  ///< that quads of order 2 have there; 0: 8 or 9
+  int quad_nodes = 0;  ///< of quads of order 2; 0: either 8 or 9
 };
 
 /// What to write, decided before any work is done.
@@ -26,19 +26,19 @@ struct OutputPlan {
   std::string path;
   std::string name;  ///< what messages call it
   OutputFormat format;
-  bool for_reader = false;  ///< in the terms of --for: numbered anew
+  bool for_reader = false;  ///< written for --for, with new numbers
 };
 
-/// The path and the format by Gmsh's rules: -format wins over the extension of -o; without -o the name is the
-/// input's with the extension of the format, in the input's directory.
+/// Path and format by Gmsh's rules: -format wins over the extension of -o; without -o the name is the input's, with the
+/// extension of the format, in the input's directory.
 /// \param output, format empty if not given
 /// \throws UsageError for a format that Gmsh does not have; OutputError for an extension that Gmsh does not
 ///         have, a format that cannot hold quads, and a place where nothing can be written
 OutputPlan plan_output(const std::string& input, const std::string& output, const std::string& format);
 
-/// What the MSH writer is asked for beyond the format.
+/// What the user wants of the MSH writer beyond the format.
 struct MshWish {
-  std::optional<double> version;  ///< asked for by the user in so many words
+  std::optional<double> version;  ///< if the user has named one
   std::optional<bool> binary;
 };
 
@@ -49,31 +49,30 @@ StagedFile stage(const OutputPlan& plan, TemporaryNames* names = nullptr);
 /// \throws OutputError if this build of Gmsh cannot write the format at all
 void check_format(const OutputPlan& plan, TemporaryNames* names = nullptr);
 
-/// Whether the format has such elements. \throws OutputError if not, or if quads of order 2 lack the node in the middle
-/// that they have there
+/// Checks that the format has elements of this order. \throws OutputError if not, or if quads of order 2 lack the
+/// middle node that they have in this format
 void check_elements(const OutputPlan& plan, int order);
 
-/// Changes of the model that the format's readers ask for.
+/// Changes the model as the format's readers need it.
 void prepare_for_format(const OutputPlan& plan);
 
-/// Numbers nodes and elements without gaps. For models that were meshed just now: nobody knows their tags yet.
+/// Numbers nodes and elements without gaps. For models that have just been meshed, whose tags nobody knows yet.
 void renumber();
 
-/// Surfaces with elements that the file will not have, by Gmsh's rule: what is in no physical group is left out if
-/// there are groups. To be asked before partitions are made.
+/// Surfaces whose elements will not be in the file: by Gmsh's rule, what is in no physical group is left out if there
+/// are groups. To be called before partitions are made.
 std::vector<int> find_unwritten_surfaces(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
-/// Those surfaces, and data on nodes and elements for which formats other than MSH have no place. \return what to say
-/// about it, each in a line
+/// Describes those surfaces, and data on nodes and elements, which only MSH can hold. \return one line for each warning
 std::vector<std::string> describe_unwritten(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
-/// Writes the current model, whole or not at all. What came from a .msh file goes out in the same version and
-/// encoding unless something else is asked for, and all of it, whether in physical groups or not.
+/// Writes the current model, whole or not at all. What came from a .msh file is written in the same version and
+/// encoding unless the user wants another, and all of it, whether in physical groups or not.
 /// \param file of `stage`; still to be committed
-/// \throws OutputError; a previous file is as it was then
+/// \throws OutputError; a previous file is then as it was
 void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file);
 
-/// Copies the input to the output: nothing was to be done, so nothing can be lost. \throws OutputError
+/// Copies the input to the output, for when there was nothing to do: nothing can get lost. \throws OutputError
 void copy_input(const std::string& input, const OutputPlan& plan, StagedFile& file);
 
 }  // namespace qmorph::adapter

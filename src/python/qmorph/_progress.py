@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How far it is."""
+"""How far the work has come."""
 from __future__ import annotations
 
 from contextlib import contextmanager
@@ -11,7 +11,7 @@ Progress = Union[Callback, bool, None]
 
 @contextmanager
 def callback_of(progress: Progress) -> Iterator[Optional[Callback]]:
-    """What the engine is to call: the user's own, nothing, or what moves a bar of tqdm."""
+    """What the engine is to call: the user's function, nothing, or one that moves a tqdm bar."""
     if progress is True:
         try:
             from tqdm.auto import tqdm

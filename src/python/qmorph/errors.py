@@ -8,10 +8,10 @@ from typing import Optional, Tuple
 class Error(RuntimeError):
     """What is wrong, where, and what to do.
 
-    kind: what it is, in a word ("overlap", "not_manifold", "usage", ...)
+    kind: the kind of error, in a word ("overlap", "not_manifold", "usage", ...)
     place: x, y and z, or None
-    subject: what it is about, as ("node", number), ("element", tag), ("surface", tag), ...; or None. For arrays the number
-        is a row of `points`; for a Gmsh model it is a tag.
+    subject: what it is about: ("node", number), ("element", tag), ("surface", tag), ..., or None. With arrays the number is a
+        row of `points`; in a Gmsh model it is a tag.
     """
 
     def __init__(

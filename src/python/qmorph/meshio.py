@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""meshio.Mesh in and out, with the data that it carries."""
+"""meshio.Mesh in and out, with its data."""
 from __future__ import annotations
 
 from typing import Any, Dict, List, Tuple
@@ -14,18 +14,18 @@ from .errors import UsageError
 
 __all__ = ["convert"]
 
-# What meshio keeps among the cell sets though its numbers are none of cells: tags of the entities around a block's.
+# meshio keeps this among the cell sets, though its numbers are not those of cells but tags of bounding entities.
 _NO_SETS = ("gmsh:bounding_entities",)
 
 
 def convert(mesh: "_meshio.Mesh", *, progress: Progress = None, **options: Any) -> "_meshio.Mesh":
-    """The same mesh with quads in the place of its triangles.
+    """Returns the mesh with quads instead of its triangles.
 
-    Triangles that differ in a cell set, or in cell data of integers (gmsh:physical, ...), are regions of their own, and what parts
-    them stays; integers that number each triangle for itself part nothing. Lines and vertices are kept by the mesh, too. Data at points is interpolated on the triangles; numbers of cells are
-    those of the triangle under a quad's centre. Points that no cell uses any more go. Cells of volumes and of higher order are not
-    taken.
-    Arguments, options and errors as those of qmorph.convert().
+    Triangles that differ in a cell set, or in integer cell data (gmsh:physical, ...), belong to different regions, and the edges
+    between regions stay; data that gives each triangle a number of its own is ignored for this. Lines and vertices of the mesh are
+    kept, too. Point data is interpolated on the triangles; a quad gets the cell data of the triangle under its centre. Points that no
+    cell uses any more are removed. Meshes with cells of volumes or of higher order are refused.
+    Arguments, options and errors are those of qmorph.convert().
     """
     return _Conversion(mesh).run(progress, options)
 
@@ -37,7 +37,7 @@ class _Conversion:
         foreign = kinds - {"triangle", "quad", "line", "vertex"}
         if foreign:
             raise UsageError(
-                f"cells of type {', '.join(sorted(foreign))}: only triangles, quads, lines and vertices are taken")
+                f"cells of type {', '.join(sorted(foreign))}: only triangles, quads, lines and vertices can be converted")
         self.points = np.asarray(mesh.points, dtype=float)
         self.blocks = [b for b, block in enumerate(mesh.cells) if block.type == "triangle"]
         self.triangles = np.vstack([np.empty((0, 3), int)] + [mesh.cells[b].data for b in self.blocks])
@@ -70,7 +70,7 @@ class _Conversion:
         return np.vstack(rows) if kind == "line" else np.vstack(rows).ravel()
 
     def _lines_on(self, triangles: np.ndarray) -> Any:
-        """Lines that are edges of these triangles; others are none of the surface's."""
+        """Lines that are edges of these triangles."""
         lines = self._rows("line")
         if lines is None:
             return None
@@ -80,7 +80,7 @@ class _Conversion:
         return lines[on]
 
     def _labels(self) -> Tuple[np.ndarray, int]:
-        """For each triangle the number of its region, in the order in which regions come."""
+        """The region of each triangle, and how many there are; regions are numbered in the order of their first triangles."""
         columns = [np.concatenate([np.full(len(self.mesh.cells[b].data), b) for b in self.blocks] or [np.empty(0, int)])]
         for data in self.mesh.cell_data.values():
             values = self._of_triangles(data)
@@ -106,7 +106,7 @@ class _Conversion:
     def _write(self, points: np.ndarray, new: np.ndarray, parents: Any) -> "_meshio.Mesh":
         block_of = np.concatenate([np.full(len(self.mesh.cells[b].data), k) for k, b in enumerate(self.blocks)] or [np.empty(0, int)])
         cells: List[Tuple[str, np.ndarray]] = []
-        rows: List[Tuple[int, Any]] = []  # of each new block: the old one, and rows among all triangles
+        rows: List[Tuple[int, Any]] = []  # for each new block: the old one, and rows among all triangles
         for b, block in enumerate(self.mesh.cells):
             if block.type != "triangle":
                 cells.append((block.type, block.data))
@@ -152,7 +152,7 @@ class _Conversion:
         data = {}
         for name, values in self.mesh.point_data.items():
             values = np.asarray(values)
-            if values.dtype.kind in "iub":  # a number is no mean of three
+            if values.dtype.kind in "iub":  # integers are labels: no means
                 added = values[corners[np.arange(len(corners)), weights.argmax(axis=1)]] if len(corners) else values[:0]
             else:
                 added = np.einsum("ij,ij...->i...", weights, values[corners])
@@ -192,7 +192,7 @@ def _in_space(points: np.ndarray) -> np.ndarray:
 
 
 def _barycentric(places: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Weights of three corners for the points of their planes that are next to the places, none below 0."""
+    """Weights of the triangles' corners at the points of their planes that are nearest to the places; none below 0."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     u, v, w = b - a, c - a, places - a
     uu, uv, vv = (u * u).sum(1), (u * v).sum(1), (v * v).sum(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a conversion gives back."""
+"""What a conversion returns."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -7,16 +7,16 @@ from typing import Any, Dict, List
 
 import numpy as np
 
-_LARGEST_PICTURE = 20_000  # quads; a browser gets slow beyond
+_LARGEST_PICTURE = 20_000  # quads; beyond that a browser gets slow
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Mesh:
     """A surface in quads.
 
-    points: floats, three columns, also where the input has two; points that no element uses are left out
-    quads, triangles: node numbers from 0, four and three columns, oriented as the input is
-    source: for each point its row among the input's points if it is where it was, -1 for one that is new or has moved
+    points: floats, three columns even if the input has two; points that no element uses are left out
+    quads, triangles: node numbers from 0, four and three columns, oriented like the input
+    source: for each point its row among the input's points if it is where it was there, -1 if it is new or has moved
     quality: figures by name ("scaled_jacobian_min", "irregular_share", ...)
     report: what was done ("regions", "layer_quads", "front_seconds", ...)
     """
@@ -36,7 +36,7 @@ class Mesh:
         )
 
     def _repr_svg_(self) -> str:
-        """The mesh, seen against its mean normal; in a notebook it is shown by itself."""
+        """The mesh, seen against its mean normal; notebooks show it."""
         elements = list(self.quads[:_LARGEST_PICTURE]) + list(self.triangles[:_LARGEST_PICTURE])
         seen = self.points @ _view(self.points, self.quads, self.triangles).T
         low, high = (seen.min(axis=0), seen.max(axis=0)) if len(seen) else (np.zeros(2), np.ones(2))
@@ -76,7 +76,7 @@ def _view(points: np.ndarray, quads: np.ndarray, triangles: np.ndarray) -> np.nd
 class SurfaceReport:
     """What became of a surface of a Gmsh model.
 
-    outcome: "converted", "already_quads", or "left": as it was, and `reason` says why
+    outcome: "converted", "already_quads", or "left" (unchanged; `reason` says why)
     """
 
     tag: int
@@ -96,7 +96,7 @@ class SurfaceReport:
 
 @dataclass(frozen=True, repr=False)
 class ModelReport:
-    """What became of a Gmsh model: its surfaces by tag, and the figures of all of them together."""
+    """What became of a Gmsh model: its surfaces by tag, and figures of all of them together."""
 
     surfaces: List[SurfaceReport]
     warnings: List[str]
@@ -109,13 +109,13 @@ class ModelReport:
 
     @property
     def left(self) -> List[SurfaceReport]:
-        """Surfaces that are as they were, since they could not be converted."""
+        """Surfaces that could not be converted and are as they were."""
         return [surface for surface in self.surfaces if surface.outcome == "left"]
 
 
 @dataclass(frozen=True)
 class EvenReport:
-    """What make_even() did: regions that were odd, the edges that got a node, the surfaces that stay odd."""
+    """What make_even() did: how many regions were odd, which edges were split, which surfaces stay odd."""
 
     odd_regions: int
     splits: List[Dict[str, Any]]

@@ -56,6 +56,7 @@ double share(double distance2, double length) { return length > 0 ? std::sqrt(di
 class WayBack {
  public:
   explicit WayBack(const space::Result& result) : result_(result), element_(result.surface().triangles(), kNone) {
+    for (Index e = 0; e < result.sides().elements(); ++e) balls_.push_back(ball_around(e));
     std::vector<Index> queue;
     for (Index e = 0; e < result.sides().elements(); ++e)
       if (const Index t = result.triangle(e); element_[t] == kNone) element_[t] = e, queue.push_back(t);
@@ -76,6 +77,7 @@ class WayBack {
       for (Index side = 4 * from; side < 4 * from + 4; ++side) {
         if (result_.sides().node(side) == kNone) continue;
         result_.sides().for_fan(side, [&](Index other) {
+          if (is_farther(p, other / 4, least)) return;
           const double there = to_element(p, other / 4);
           if (there < least) least = there, best = other / 4;
         });
@@ -97,8 +99,31 @@ class WayBack {
     return least;
   }
 
+  /// An element lies inside.
+  struct Ball {
+    Vector3d centre;
+    double radius;
+  };
+  Ball ball_around(Index e) const {
+    const space::ElementSides& sides = result_.sides();
+    const Index degree = sides.is_triangle(e) ? 3 : 4;
+    const auto corner = [&](Index i) -> const Vector3d& { return result_.mesh().points[sides.node(4 * e + i)]; };
+    Ball ball{Vector3d::Zero(), 0};
+    for (Index i = 0; i < degree; ++i) ball.centre += corner(i) / double(degree);
+    for (Index i = 0; i < degree; ++i) ball.radius = std::max(ball.radius, (corner(i) - ball.centre).norm());
+    ball.radius *= 1 + kRounding;
+    return ball;
+  }
+  /// Surely; which takes little time to see.
+  bool is_farther(const Vector3d& p, Index e, double distance2) const {
+    const double reach = balls_[e].radius + std::sqrt(distance2);
+    return (p - balls_[e].centre).squaredNorm() > reach * reach * (1 + kRounding);
+  }
+
+  static constexpr double kRounding = 1e-9;
   const space::Result& result_;
   std::vector<Index> element_;  ///< by triangle of the surface
+  std::vector<Ball> balls_;     ///< by element
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ Vector3d centre_of(const QuadMesh& mesh, Index q) {
   return centre;
 }
 
-TEST_CASE("fidelity: on quads whose nodes are the input's, only sides and centres are off it") {
+TEST_CASE("fidelity: of quads on the input's nodes, only sides and centres are off the surface") {
   // Cells of 1 by 1 around a cylinder of eight sides: every cell is flat.
   const GridSurface grid{.across = 8, .along = 4};
   const Patch patch = cylinder(grid);
@@ -84,7 +84,7 @@ TEST_CASE("fidelity: a converted surface has its nodes on the input, and planar 
   CHECK(fidelity(flat, convert(flat).mesh).quads == 0);
 }
 
-TEST_CASE("fidelity: two surfaces together are both") {
+TEST_CASE("fidelity: figures of two surfaces add up") {
   const Patch one = cylinder({.across = 12, .along = 5}, 0.5), other = torus({.across = 12, .along = 8});
   const QuadMesh first = convert(one).mesh, second = convert(other).mesh;
   FidelityAccumulator both, sum, last;

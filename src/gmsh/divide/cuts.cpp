@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gmsh/divide/cuts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kernel/sort_unique.hpp"
+
+namespace qmorph::adapter {
+namespace {
+
+using Eigen::Vector3d;
+using Box = Eigen::AlignedBox3d;
+
+/// A surface is thin where it is thinner than so many sizes.
+constexpr double kThin = 0.3;
+/// No piece is shorter than so many sizes.
+constexpr double kShortest = 0.5;
+
+/// Where on a curve the nearest point to `p` is, in segments of its finer nodes, and how far away.
+std::pair<double, double> nearest_on(const DividedCurve& curve, const Vector3d& p) {
+  std::pair<double, double> best(0, (curve.points[0] - p).norm());
+  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+    const Vector3d along = curve.points[i + 1] - curve.points[i];
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0 ? std::clamp((p - curve.points[i]).dot(along) / length2, 0.0, 1.0) : 0;
+    const double distance = (curve.points[i] + t * along - p).norm();
+    if (distance < best.second) best = {double(i) + t, distance};
+  }
+  return best;
+}
+
+class Cutter {
+ public:
+  Cutter(const CurveModel& model, const std::vector<bool>& may_cut)
+      : model_(model), may_cut_(may_cut), cuts_(model.curves.size()) {
+    for (const auto& [a, b] : model_.images) may_cut_[a] = may_cut_[b] = false;
+    for (Index c = 0; c < model_.curves.size(); ++c) {
+      const DividedCurve& curve = model_.curves[c];
+      Box box;
+      for (const Vector3d& p : curve.points) box.extend(p);
+      boxes_.push_back(box);
+      if (curve.segments == 0 || curve.ends[0] == curve.ends[1]) may_cut_[c] = false;
+    }
+  }
+
+  CurveModel run() {
+    for (const BoundedSurface& surface : model_.surfaces) look_at(surface);
+    for (std::vector<double>& cuts : cuts_) sort_unique(cuts);
+    return write();
+  }
+
+ private:
+  double finer_in_size(const DividedCurve& curve) const { return double(curve.finer) / double(curve.segments); }
+
+  void look_at(const BoundedSurface& surface) {
+    std::vector<std::pair<int, Vector3d>> corners;
+    for (Index c : surface.boundary) {
+      const DividedCurve& curve = model_.curves[c];
+      if (curve.segments == 0) continue;
+      corners.emplace_back(curve.ends[0], curve.points.front());
+      corners.emplace_back(curve.ends[1], curve.points.back());
+    }
+    const auto is_less = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto is_same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    std::sort(corners.begin(), corners.end(), is_less);
+    corners.erase(std::unique(corners.begin(), corners.end(), is_same), corners.end());
+    for (Index c : surface.boundary)
+      if (may_cut_[c])
+        for (const auto& [point, place] : corners) look_at(c, point, place);
+  }
+
+  void look_at(Index c, int point, const Vector3d& place) {
+    const DividedCurve& curve = model_.curves[c];
+    const double thin = kThin * curve.size();
+    if (point == curve.ends[0] || point == curve.ends[1] || boxes_[c].exteriorDistance(place) > thin) return;
+    const auto [at, distance] = nearest_on(curve, place);
+    const double shortest = kShortest * finer_in_size(curve);
+    if (distance > thin || at < shortest || at > curve.finer - shortest) return;
+    std::vector<double>& cuts = cuts_[c];
+    if (std::none_of(cuts.begin(), cuts.end(), [&](double other) { return std::abs(other - at) < shortest; }))
+      cuts.push_back(at);
+  }
+
+  CurveModel write() {
+    CurveModel result;
+    std::vector<bool> may_change;
+    std::vector<std::vector<Index>> pieces(model_.curves.size());
+    int point = 0;
+    for (Index c = 0; c < model_.curves.size(); ++c) {
+      std::vector<double> ends{0};
+      ends.insert(ends.end(), cuts_[c].begin(), cuts_[c].end());
+      ends.push_back(model_.curves[c].finer);
+      for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+        pieces[c].push_back(Index(result.curves.size()));
+        may_change.push_back(may_cut_[c]);
+        if (ends.size() == 2) {
+          result.curves.push_back(model_.curves[c]);
+          continue;
+        }
+        DividedCurve piece = piece_of(model_.curves[c], ends[k], ends[k + 1]);
+        if (k > 0) piece.ends[0] = point;
+        if (k + 2 < ends.size()) piece.ends[1] = --point;
+        result.curves.push_back(std::move(piece));
+      }
+    }
+    const auto all_pieces = [&](const std::vector<Index>& curves) {
+      std::vector<Index> all;
+      for (Index c : curves) all.insert(all.end(), pieces[c].begin(), pieces[c].end());
+      return all;
+    };
+    for (const BoundedSurface& surface : model_.surfaces)
+      result.surfaces.push_back({surface.tag, all_pieces(surface.boundary), all_pieces(surface.embedded)});
+    for (const auto& [a, b] : model_.images) result.images.emplace_back(pieces[a][0], pieces[b][0]);
+    for (Index s = 0; s < model_.surfaces.size(); ++s)
+      for (Index c : model_.surfaces[s].boundary)
+        for (Index piece : pieces[c])
+          if (pieces[c].size() > 1) match(result, result.surfaces[s], piece, may_change);
+    return result;
+  }
+
+  /// The piece and the curve that faces it from end to end want as many segments, whatever their sizes are.
+  void match(CurveModel& result, const BoundedSurface& surface, Index piece,
+             const std::vector<bool>& may_change) const {
+    constexpr double kLonger = 1.25;
+    const DividedCurve& one = result.curves[piece];
+    for (Index c : surface.boundary) {
+      const DividedCurve& other = result.curves[c];
+      if (c == piece || other.segments == 0 || !may_change[c]) continue;
+      if (std::max(one.length, other.length) > kLonger * std::min(one.length, other.length)) continue;
+      const double thin = kThin * one.size();
+      const auto is_near = [&](const Vector3d& a, const Vector3d& b) { return (a - b).norm() <= thin; };
+      const Vector3d &p = one.points.front(), &q = one.points.back(), &u = other.points.front(),
+                     &v = other.points.back();
+      if ((is_near(p, u) && is_near(q, v)) || (is_near(p, v) && is_near(q, u))) result.images.emplace_back(c, piece);
+    }
+  }
+
+  DividedCurve piece_of(const DividedCurve& curve, double from, double to) const {
+    const double finer = to - from;
+    DividedCurve piece;
+    piece.tag = curve.tag;
+    piece.segments = std::max(1, int(std::lround(finer / finer_in_size(curve))));
+    piece.finer = std::max(int(std::lround(finer)), piece.segments + 1);
+    for (int i = 0; i <= piece.finer; ++i)
+      piece.parameters.push_back(curve.parameter_at(from + finer * i / piece.finer));
+    piece.points = points_at(curve, piece.parameters);
+    for (std::size_t i = 1; i < piece.points.size(); ++i)
+      piece.length += (piece.points[i] - piece.points[i - 1]).norm();
+    piece.ends = curve.ends;
+    return piece;
+  }
+
+  const CurveModel& model_;
+  std::vector<bool> may_cut_;
+  std::vector<std::vector<double>> cuts_;  ///< by curve, in segments of the finer nodes
+  std::vector<Box> boxes_;
+};
+
+}  // namespace
+
+CurveModel cut_at_facing_corners(const CurveModel& model, const std::vector<bool>& may_cut) {
+  return Cutter(model, may_cut).run();
+}
+
+}  // namespace qmorph::adapter

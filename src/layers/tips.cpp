@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "layers/tips.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace qmorph::layers {
+namespace {
+
+using Quad = std::array<Index, 4>;
+using Eigen::Vector3d;
+
+/// Scaled Jacobian, by the quad's own normal.
+double smallest_sine(const Patch& patch, const Quad& quad) {
+  const auto side = [&](std::size_t i) -> Vector3d {
+    return patch.points[quad[(i + 1) % 4]] - patch.points[quad[i % 4]];
+  };
+  const Vector3d normal = (side(0) + side(1)).cross(side(1) + side(2)).normalized();
+  double least = 1;
+  for (std::size_t i = 0; i < 4; ++i)
+    least = std::min(least, side(i + 3).cross(side(i)).dot(normal) / (side(i + 3).norm() * side(i).norm()));
+  return least;
+}
+
+/// Quads around nodes that may be those in the middle of a tip.
+class Tips {
+ public:
+  Tips(Patch& patch, std::size_t first) : patch_(patch) {
+    for (std::size_t q = first; q < patch.quads.size(); ++q)
+      for (Index v : patch.quads[q]) around_[v];
+    for (const auto& ends : patch.constraints)
+      for (Index v : ends) around_.erase(v);
+    for (Index v : patch.fixed) around_.erase(v);
+    for (const auto& t : patch.triangles)
+      for (Index v : t) around_.erase(v);
+    for (const Quad& quad : patch.quads)
+      for (Index v : quad)
+        if (const auto at = around_.find(v); at != around_.end()) at->second.push_back(quad);
+  }
+
+  void widen(const Quad& tip) {
+    for (std::size_t i = 0; i < 4; ++i)
+      if (const auto next = node_after(tip, i)) move(tip[i], *next);
+  }
+
+ private:
+  /// Of corner i of the quad, if all around are two others, the node at the end of their common side.
+  std::optional<Index> node_after(const Quad& quad, std::size_t i) const {
+    const auto at = around_.find(quad[i]);
+    if (at == around_.end() || at->second.size() != 3) return {};
+    std::map<Index, int> neighbours;
+    for (const Quad& other : at->second) {
+      const std::size_t k = std::size_t(std::find(other.begin(), other.end(), quad[i]) - other.begin());
+      ++neighbours[other[(k + 1) % 4]], ++neighbours[other[(k + 3) % 4]];
+    }
+    if (neighbours.size() != 3) return {};  // on the boundary
+    for (const auto& [v, count] : neighbours)
+      if (v != quad[(i + 1) % 4] && v != quad[(i + 3) % 4]) return v;
+    return {};
+  }
+
+  void move(Index node, Index next) {
+    constexpr double kGood = 0.7, kStep = 0.02, kFarthest = 0.4;  // shares of the edge
+    const Vector3d from = patch_.points[node], edge = patch_.points[next] - from;
+    double best = worst_around(node), best_share = 0;
+    for (double share = kStep; share <= kFarthest && best < kGood; share += kStep) {
+      patch_.points[node] = from + share * edge;
+      if (const double worst = worst_around(node); worst > best) best = worst, best_share = share;
+    }
+    patch_.points[node] = best_share > 0 ? Vector3d(from + best_share * edge) : from;
+  }
+
+  double worst_around(Index node) const {
+    double worst = 1;
+    for (const Quad& quad : around_.at(node)) worst = std::min(worst, smallest_sine(patch_, quad));
+    return worst;
+  }
+
+  Patch& patch_;
+  std::map<Index, std::vector<Quad>> around_;  ///< by node
+};
+
+}  // namespace
+
+void widen_tips(Patch& patch, std::size_t first) {
+  if (first == patch.quads.size()) return;
+  Tips tips(patch, first);
+  for (std::size_t q = first; q < patch.quads.size(); ++q) tips.widen(patch.quads[q]);
+}
+
+}  // namespace qmorph::layers
