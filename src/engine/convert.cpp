@@ -11,12 +11,13 @@
 #include "engine/surface.hpp"
 #include "engine/worth.hpp"
 #include "layers/find_layers.hpp"
+#include "quality/directed_size.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
 namespace {
 
-/// As stretched triangles, if they are, unless that makes a quad poor and the usual way does not.
+/// As stretched triangles, if they are, unless that makes a quad poor and the usual way does not, and keeps sizes, too.
 kernel::Mesh convert_one(const Region& region, const Plane& plane, const Options& options, double allowed,
                          ConversionReport& report, Record& record) {
   constexpr double kPoor = 0.3;
@@ -30,7 +31,7 @@ kernel::Mesh convert_one(const Region& region, const Plane& plane, const Options
     Record usual_record;
     const std::size_t cost = stretched->work();
     kernel::Mesh usual = convert_region(region, plane, options, allowed - double(cost), usual_report, usual_record);
-    if (!is_poor(usual)) {
+    if (!is_poor(usual) && stretch::size_ratio(region, usual) <= kLargestSizeRatio) {
       usual.add_work(cost);
       report = std::move(usual_report), record = std::move(usual_record);
       return usual;

@@ -145,22 +145,6 @@ class StretchedRegion {
   const chart::Chart chart_;
 };
 
-/// By how much sizes are off those of the triangles, in the direction in which that is more.
-double size_ratio(const Surface& surface, const Region& region, const kernel::Mesh& mesh) {
-  Patch before;
-  before.points = surface.points;
-  before.triangles = region.triangles;
-  std::vector<Eigen::Vector3d> points;
-  for (Index v = 0; v < mesh.vertex_slots(); ++v) points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), 0);
-  std::vector<std::array<Index, 4>> quads;
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f) || mesh.degree(f) != 4) continue;
-    const Index h = mesh.half_edge(f);
-    quads.push_back({mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))});
-  }
-  return largest_ratio(median(directed_sizes(before, points, quads)));
-}
-
 /// Share of the inner nodes that have other than four edges.
 double irregular_share(const kernel::Mesh& mesh) {
   std::size_t inner = 0, irregular = 0;
@@ -215,17 +199,31 @@ std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane&
   std::optional<Attempt> best =
       attempt(field, [&](Attempt& own) { return stretched.convert(options, allowed, own.report, own.record); });
   if (!best) return {};
-  if (const double off = size_ratio(surface, region, best->mesh); off > kLargestSizeRatio) {
+  if (const double off = size_ratio(region, best->mesh); off > kLargestSizeRatio) {
     std::optional<Attempt> plain = attempt(
         field, [&](Attempt& own) { return convert_region(region, plane, options, allowed, own.report, own.record); });
     // A front among stretched triangles often keeps sizes by many small quads without any order.
-    if (plain &&
-        size_ratio(surface, region, plain->mesh) + irregular_share(plain->mesh) < off + irregular_share(best->mesh))
+    if (plain && size_ratio(region, plain->mesh) + irregular_share(plain->mesh) < off + irregular_share(best->mesh))
       best = std::move(plain);
   }
   report = best->report;
   record = std::move(best->record);
   return std::move(best->mesh);
+}
+
+double size_ratio(const Region& region, const kernel::Mesh& mesh) {
+  Patch before;
+  for (const Vec2& p : region.points) before.points.emplace_back(p.x(), p.y(), 0);
+  before.triangles = region.triangles;
+  std::vector<Eigen::Vector3d> points;
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), 0);
+  std::vector<std::array<Index, 4>> quads;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f) || mesh.degree(f) != 4) continue;
+    const Index h = mesh.half_edge(f);
+    quads.push_back({mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))});
+  }
+  return largest_ratio(median(directed_sizes(before, points, quads)));
 }
 
 }  // namespace qmorph::stretch

@@ -17,4 +17,7 @@ namespace qmorph::stretch {
 std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane& plane, const Options& options,
                                               double allowed, ConversionReport& report, Record& record);
 
+/// By how much the sizes of quads are off those of the region's triangles, in the direction in which that is more.
+double size_ratio(const Region& region, const kernel::Mesh& mesh);
+
 }  // namespace qmorph::stretch
