@@ -163,7 +163,7 @@ std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& w
   Layers layers;
   layers.patch = Writer(cells, cuts).write();
   const std::size_t pairs = pair_remnants(layers.patch);
-  widen_tips(layers.patch, layers.patch.quads.size() - pairs);
+  widen_tips(layers.patch, patch.quads.size(), pairs);
   layers.quads = layers.patch.quads.size() - patch.quads.size();
   if (layers.quads == 0) return std::nullopt;
   layers.regions = regions.sizes.size();

@@ -29,9 +29,11 @@ double smallest_sine(const Patch& patch, const Quad& quad) {
 /// Quads around nodes that may be those in the middle of a tip.
 class Tips {
  public:
-  Tips(Patch& patch, std::size_t first) : patch_(patch) {
+  Tips(Patch& patch, std::size_t given, std::size_t first) : patch_(patch) {
     for (std::size_t q = first; q < patch.quads.size(); ++q)
       for (Index v : patch.quads[q]) around_[v];
+    for (std::size_t q = 0; q < given; ++q)
+      for (Index v : patch.quads[q]) around_.erase(v);
     for (const auto& ends : patch.constraints)
       for (Index v : ends) around_.erase(v);
     for (Index v : patch.fixed) around_.erase(v);
@@ -86,9 +88,10 @@ class Tips {
 
 }  // namespace
 
-void widen_tips(Patch& patch, std::size_t first) {
-  if (first == patch.quads.size()) return;
-  Tips tips(patch, first);
+void widen_tips(Patch& patch, std::size_t given, std::size_t pairs) {
+  if (pairs == 0) return;
+  const std::size_t first = patch.quads.size() - pairs;
+  Tips tips(patch, given, first);
   for (std::size_t q = first; q < patch.quads.size(); ++q) tips.widen(patch.quads[q]);
 }
 
