@@ -30,9 +30,11 @@ double smallest_sine(const Patch& patch, const Quad& quad) {
 /// Quads around nodes that may be those in the middle of a tip.
 class Tips {
  public:
-  Tips(Patch& patch, std::size_t first) : patch_(patch) {
+  Tips(Patch& patch, std::size_t given, std::size_t first) : patch_(patch) {
     for (std::size_t q = first; q < patch.quads.size(); ++q)
       for (Index v : patch.quads[q]) around_[v];
+    for (std::size_t q = 0; q < given; ++q)
+      for (Index v : patch.quads[q]) around_.erase(v);
     for (const auto& ends : patch.constraints)
       for (Index v : ends) around_.erase(v);
     for (Index v : patch.fixed) around_.erase(v);
@@ -103,10 +105,12 @@ class Tips {
 
 }  // namespace
 
-void widen_tips(Patch& patch, std::size_t first, std::size_t layer_quads) {
+void widen_tips(Patch& patch, std::size_t given, std::size_t pairs) {
   constexpr double kMostChanged = 0.01;  // of the layers' quads: else they would not be those of the triangles
-  const std::vector<Quad> pairs(patch.quads.begin() + std::ptrdiff_t(first), patch.quads.end());
-  if (!pairs.empty()) Tips(patch, first).widen(pairs, std::size_t(kMostChanged * double(layer_quads)));
+  if (pairs == 0) return;
+  const std::vector<Quad> tips(patch.quads.end() - std::ptrdiff_t(pairs), patch.quads.end());
+  const std::size_t layer_quads = patch.quads.size() - given;
+  Tips(patch, given, patch.quads.size() - pairs).widen(tips, std::size_t(kMostChanged * double(layer_quads)));
 }
 
 }  // namespace qmorph::layers

@@ -8,8 +8,8 @@ namespace qmorph::layers {
 /// the node goes outwards, along the edge to the next row, until the corner is good enough or the next row's would be
 /// worse. No other node of a layer ever moves, and no more than one in a hundred of the quads in layers changes: the
 /// worst do.
-/// \param first the quads from there on are pairs at tips
-/// \param layer_quads how many quads of the patch are in layers
-void widen_tips(Patch& patch, std::size_t first, std::size_t layer_quads);
+/// \param given the first quads, which the input had: their nodes stay
+/// \param pairs the last quads, at tips
+void widen_tips(Patch& patch, std::size_t given, std::size_t pairs);
 
 }  // namespace qmorph::layers

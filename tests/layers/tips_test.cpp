@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "support/draft.hpp"
 
@@ -17,8 +18,9 @@ using qmorph::Patch;
 
 namespace {
 
-/// Two rows round a corner, in two spokes of 36 degrees: a pair of triangles at the tip, and two quads around it.
-Patch fan() {
+/// Two rows round a corner, in two spokes of 36 degrees: a pair of triangles at the tip, and two quads around it. Before
+/// them other quads elsewhere.
+Patch fan(std::size_t others) {
   Patch patch;
   patch.points.emplace_back(0, 0, 0);
   for (const double height : {0.01, 0.03})
@@ -26,7 +28,10 @@ Patch fan() {
       const double direction = line * std::numbers::pi / 5;
       patch.points.emplace_back(height * std::cos(direction), height * std::sin(direction), 0);
     }
-  patch.quads = {{1, 4, 5, 2}, {2, 5, 6, 3}, {0, 1, 2, 3}};
+  const Index first = Index(patch.points.size());
+  for (const auto& [x, y] : {std::pair{1, 0}, {2, 0}, {2, 1}, {1, 1}}) patch.points.emplace_back(x, y, 0);
+  patch.quads.assign(others, {first, first + 1, first + 2, first + 3});
+  patch.quads.insert(patch.quads.end(), {{1, 4, 5, 2}, {2, 5, 6, 3}, {0, 1, 2, 3}});
   return patch;
 }
 
@@ -43,9 +48,9 @@ double smallest_sine(const Patch& patch) {
 }  // namespace
 
 TEST_CASE("tips: the node in the middle goes outwards, so that the second row begins at a better corner") {
-  const Patch before = fan();
+  const Patch before = fan(297);
   Patch after = before;
-  qmorph::layers::widen_tips(after, 2, 1000);
+  qmorph::layers::widen_tips(after, 0, 1);
   CHECK(smallest_sine(before) < 0.6);
   CHECK(smallest_sine(after) > 0.69);
   const Index middle = 2;
@@ -58,7 +63,15 @@ TEST_CASE("tips: the node in the middle goes outwards, so that the second row be
 }
 
 TEST_CASE("tips: a layer of few quads stays as it is") {
-  Patch patch = fan();
-  qmorph::layers::widen_tips(patch, 2, 299);  // three quads change, and that is more than one in a hundred
-  CHECK(patch.points == fan().points);
+  Patch patch = fan(296);  // three quads would change, and that is more than one in a hundred
+  qmorph::layers::widen_tips(patch, 0, 1);
+  CHECK(patch.points == fan(296).points);
+}
+
+TEST_CASE("tips: between quads that the input had the node stays") {
+  Patch patch = fan(1000);
+  std::swap(patch.quads.front(), patch.quads[1000]);
+  const Patch before = patch;
+  qmorph::layers::widen_tips(patch, 1, 1);
+  CHECK(patch.points == before.points);
 }
