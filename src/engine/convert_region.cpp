@@ -79,10 +79,11 @@ class RegionConverter {
         finish(result);
         take_rows(result);
         take_chords(result);
+        take_pairs(result);
       }
       if (!result.fault) return result;
       fault = result.fault;
-      if (!has_tries) start();
+      if (start_.face_slots() == 0) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
     Attempt paired = begin(std::move(start_), options_, allowed_ - double(cost_), Way::without_front);
@@ -106,6 +107,11 @@ class RegionConverter {
     // What makes fans better is no reason to spend more on the region.
     const std::size_t size = count_faces(start_, 3), before = region_.triangles.size();
     if (size > before) start_.add_work(kWorkToGrade * (size - before));
+  }
+
+  /// In all, and not by a quad that is poorer than the others' worst.
+  static bool is_better(const Worth& one, const Worth& other) {
+    return one.least >= other.least && one.sum() > other.sum();
   }
 
   Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
@@ -137,8 +143,19 @@ class RegionConverter {
     if (!chords) return;
     Attempt laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
     finish(laid);
-    const Worth one = judge(laid.mesh);
-    if (!laid.fault && one.least >= worth.least && one.sum() > worth.sum()) best = std::move(laid);
+    if (!laid.fault && is_better(judge(laid.mesh), worth)) best = std::move(laid);
+  }
+
+  /// Where the front has gone astray, among triangles that leave it no room, they may be worth more paired as they are.
+  void take_pairs(Attempt& best) {
+    constexpr double kPoorMean = 0.6;
+    const Worth worth = judge(best.mesh);
+    const bool is_astray = worth.mean < kPoorMean && worth.growth > 2 * kFairGrowth;
+    if (best.fault || !is_astray) return;
+    if (start_.face_slots() == 0) start();
+    Attempt paired = begin(start_, options_, allowed_ - double(cost_), Way::without_front);
+    finish(paired);
+    if (!paired.fault && is_better(judge(paired.mesh), worth)) best = std::move(paired);
   }
 
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
@@ -151,6 +168,7 @@ class RegionConverter {
     finish(best);
     take_rows(best);
     take_chords(best);
+    take_pairs(best);
     Worth worth = judge(best.mesh);
     if (best.fault || worth.least < kHopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;

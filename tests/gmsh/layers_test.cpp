@@ -192,6 +192,25 @@ TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, and a warning 
   CHECK(run_qmorph({"--check", directory / "out.msh", "--against", directory / "in.msh"}).status == 0);
 }
 
+TEST_CASE("layers of Gmsh: where rows end at a steep side, most quads are good all the same") {
+  // The end of the rows has many nodes, and the side that it faces has few: a front has no room between them.
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             "Point(1) = {0, 0, 0, .1}; Point(2) = {2, 0, 0, .1}; Point(3) = {3, 1, 0, .1}; Point(4) = {1, 2, 0, .1};\n"
+             "Point(5) = {0, 1, 0, .1}; Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};\n"
+             "Line(5) = {5, 1}; Curve Loop(1) = {1:5}; Plane Surface(1) = {1}; Recombine Surface{1};\n"
+             "Field[1] = BoundaryLayer; Field[1].EdgesList = {1}; Field[1].hfar = .1; Field[1].hwall_n = .01;\n"
+             "Field[1].ratio = 1.1; Field[1].thickness = .2; Field[1].AnisoMax = 100; BoundaryLayer Field = 1;\n"
+             "Field[2] = Distance; Field[2].PointsList = {3}; Field[3] = Threshold; Field[3].InField = 2;\n"
+             "Field[3].SizeMin = .01; Field[3].SizeMax = .1; Field[3].DistMin = .05; Field[3].DistMax = .4;\n"
+             "Background Field = 3;\n");
+  const Result result =
+      run_qmorph({directory / "in.geo", "-o", directory / "out.msh", "--stats", directory / "out.json"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  CHECK(figure(read_file(directory / "out.json"), "share_below_0.3") < 0.1);
+}
+
 TEST_CASE("check: sizes are compared with another mesh, which has to be named") {
   const TemporaryDirectory directory;
   write_file(directory / "in.geo", extruded_wall(false));
