@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace qmorph::layers {
@@ -29,9 +30,11 @@ double smallest_sine(const Patch& patch, const Quad& quad) {
 /// Quads around nodes that may be those in the middle of a tip.
 class Tips {
  public:
-  Tips(Patch& patch, std::size_t first) : patch_(patch) {
+  Tips(Patch& patch, std::size_t given, std::size_t first) : patch_(patch) {
     for (std::size_t q = first; q < patch.quads.size(); ++q)
       for (Index v : patch.quads[q]) around_[v];
+    for (std::size_t q = 0; q < given; ++q)
+      for (Index v : patch.quads[q]) around_.erase(v);
     for (const auto& ends : patch.constraints)
       for (Index v : ends) around_.erase(v);
     for (Index v : patch.fixed) around_.erase(v);
@@ -42,9 +45,23 @@ class Tips {
         if (const auto at = around_.find(v); at != around_.end()) at->second.push_back(quad);
   }
 
-  void widen(const Quad& tip) {
-    for (std::size_t i = 0; i < 4; ++i)
-      if (const auto next = node_after(tip, i)) move(tip[i], *next);
+  /// The worst first, while no more quads change than that.
+  void widen(std::span<const Quad> tips, std::size_t most_changed) {
+    struct Middle {
+      double worst;
+      Index node, next;
+    };
+    std::vector<Middle> middles;
+    for (const Quad& tip : tips)
+      for (std::size_t i = 0; i < 4; ++i)
+        if (const auto next = node_after(tip, i)) middles.push_back({worst_around(tip[i]), tip[i], *next});
+    std::stable_sort(middles.begin(), middles.end(),
+                     [](const Middle& a, const Middle& b) { return a.worst < b.worst; });
+    for (const Middle& middle : middles) {
+      const std::size_t changed = around_.at(middle.node).size();
+      if (changed > most_changed) break;
+      if (move(middle.node, middle.next)) most_changed -= changed;
+    }
   }
 
  private:
@@ -63,7 +80,8 @@ class Tips {
     return {};
   }
 
-  void move(Index node, Index next) {
+  /// False if that makes nothing better.
+  bool move(Index node, Index next) {
     constexpr double kGood = 0.7, kStep = 0.02, kFarthest = 0.4;  // shares of the edge
     const Vector3d from = patch_.points[node], edge = patch_.points[next] - from;
     double best = worst_around(node), best_share = 0;
@@ -72,6 +90,7 @@ class Tips {
       if (const double worst = worst_around(node); worst > best) best = worst, best_share = share;
     }
     patch_.points[node] = best_share > 0 ? Vector3d(from + best_share * edge) : from;
+    return best_share > 0;
   }
 
   double worst_around(Index node) const {
@@ -86,10 +105,12 @@ class Tips {
 
 }  // namespace
 
-void widen_tips(Patch& patch, std::size_t first) {
-  if (first == patch.quads.size()) return;
-  Tips tips(patch, first);
-  for (std::size_t q = first; q < patch.quads.size(); ++q) tips.widen(patch.quads[q]);
+void widen_tips(Patch& patch, std::size_t given, std::size_t pairs) {
+  constexpr double kMostChanged = 0.01;  // of the layers' quads: else they would not be those of the triangles
+  if (pairs == 0) return;
+  const std::vector<Quad> tips(patch.quads.end() - std::ptrdiff_t(pairs), patch.quads.end());
+  const std::size_t layer_quads = patch.quads.size() - given;
+  Tips(patch, given, patch.quads.size() - pairs).widen(tips, std::size_t(kMostChanged * double(layer_quads)));
 }
 
 }  // namespace qmorph::layers

@@ -215,13 +215,6 @@ TEST_CASE(
     const std::size_t cells = 8 * rows + 2 * spokes * (rows - 1), more = spokes % 2 == 1 ? 2 * (rows - 1) : 0;
     const std::size_t tips = spokes == 2 ? 0 : 2 * std::size_t((spokes + 1) / 2);  // in pairs, if not straight ones
     CHECK(report.layer_quads == cells + more + tips);
-    double least = 1;
-    for (std::size_t q = 0; q < report.layer_quads; ++q) {
-      std::array<Eigen::Vector2d, 4> corners;
-      for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.points[mesh.quads[q][i]].head<2>();
-      least = std::min(least, qmorph::test::smallest_sine(corners));
-    }
-    CHECK(least > 0.6);
   }
 }
 
