@@ -29,7 +29,7 @@ void NodePlaces::restore() const {
     if (row == kNone) continue;
     const auto place = xyz_.begin() + std::ptrdiff_t(3 * row);
     if (std::equal(place, place + 3, xyz.begin() + std::ptrdiff_t(3 * i))) continue;
-    ::gmsh::model::mesh::setNode(tags[i], {place, place + 3}, node_parameters(tags[i]));
+    ::gmsh::model::mesh::setNode(tags[i], {place, place + 3}, placed_node(tags[i]).parameters);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "gmsh/even/even_links.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
+#include "gmsh/read/facing.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/element_types.hpp"
 #include "gmsh/session/scratch_file.hpp"
@@ -35,18 +36,20 @@ bool has_parameters(int surface) {
   return low.size() == 2 && high.size() == 2 && low[0] < high[0] && low[1] < high[1];
 }
 
-/// Surfaces with `Recombine Surface` and `Transfinite Surface`; fields of boundary layers with `Quads`.
+/// Surfaces with `Recombine Surface`, `Transfinite Surface` and `Reverse Surface`; fields of boundary layers with
+/// `Quads`.
 struct Flags {
-  std::set<int> recombined, transfinite;
+  std::set<int> recombined, transfinite, reversed;
   std::vector<int> quad_fields;
 };
 
 /// No call of Gmsh 4.8 tells, but the model written as a script does. It does not have facets.
 Flags read_flags() {
   const ScratchFile script(".geo_unrolled");
+  const ScopedOption everything("Print.GeoOnlyPhysicals", 0);
   run_logged([&] { ::gmsh::write(script.path()); });
   std::ifstream in(script.path());
-  static const std::regex statement(R"(^\s*(Recombine|Transfinite) Surface \{([^}]*)\})");
+  static const std::regex statement(R"(^\s*(Recombine|Transfinite|Reverse) Surface \{([^}]*)\})");
   static const std::regex field(R"(^\s*Field\[(\d+)\]\.Quads = [1-9])");
   static const std::regex number(R"(\d+)");
   Flags flags;
@@ -54,7 +57,9 @@ Flags read_flags() {
     std::smatch match;
     if (std::regex_search(line, match, field)) flags.quad_fields.push_back(std::stoi(match[1]));
     if (!std::regex_search(line, match, statement)) continue;
-    std::set<int>& tags = match[1] == "Recombine" ? flags.recombined : flags.transfinite;
+    std::set<int>& tags = match[1] == "Recombine" ? flags.recombined
+                          : match[1] == "Reverse" ? flags.reversed
+                                                  : flags.transfinite;
     const std::string list = match[2];
     for (std::sregex_iterator it(list.begin(), list.end(), number), end; it != end; ++it)
       tags.insert(std::stoi(it->str()));
@@ -311,6 +316,7 @@ MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_
   meshed.warnings = log.warnings;
   const std::vector<std::string> bare = check_every_surface_has_elements(log);
   meshed.warnings.insert(meshed.warnings.end(), bare.begin(), bare.end());
+  if (!task.compounds) face_as_geometry(task.bare, flags.reversed);
   meshed.even = mend_parity(task, meshed.division, keep_curves);
   return meshed;
 }

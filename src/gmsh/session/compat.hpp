@@ -25,16 +25,20 @@ inline std::string entity_type(int dim, int tag) {
   return type;
 }
 
-/// Parameters of a node on its curve or surface; empty where it has none.
-inline std::vector<double> node_parameters(std::size_t tag) {
+/// A node, with parameters on its curve or surface where it has them.
+struct PlacedNode {
   std::vector<double> xyz, parameters;
+};
+
+inline PlacedNode placed_node(std::size_t tag) {
+  PlacedNode node;
 #if QMORPH_GMSH_AT_LEAST(4, 9)
   int dim = 0, entity = 0;
-  ::gmsh::model::mesh::getNode(tag, xyz, parameters, dim, entity);
+  ::gmsh::model::mesh::getNode(tag, node.xyz, node.parameters, dim, entity);
 #else
-  ::gmsh::model::mesh::getNode(tag, xyz, parameters);
+  ::gmsh::model::mesh::getNode(tag, node.xyz, node.parameters);
 #endif
-  return parameters;
+  return node;
 }
 
 }  // namespace qmorph::adapter
