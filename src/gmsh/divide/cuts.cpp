@@ -80,8 +80,8 @@ class Cutter {
     const double shortest = kShortest * finer_in_size(curve);
     if (distance > thin || at < shortest || at > curve.finer - shortest) return;
     std::vector<double>& cuts = cuts_[c];
-    if (std::none_of(cuts.begin(), cuts.end(), [&](double other) { return std::abs(other - at) < shortest; }))
-      cuts.push_back(at);
+    const auto is_near = [&, here = at](double other) { return std::abs(other - here) < shortest; };
+    if (std::none_of(cuts.begin(), cuts.end(), is_near)) cuts.push_back(at);
   }
 
   CurveModel write() {
