@@ -164,17 +164,16 @@ class Repair {
     for (Index g : topology::grow(mesh_, {f}, 1))
       for (Index v : topology::nodes_of(mesh_, g)) near.push_back(v);
     for (const Candidate& c : first) {
-      std::size_t seconds = 1;  // not known before the first change is made
-      for (std::size_t k = 0; k < seconds; ++k) {
+      std::vector<Candidate> second;  // not known before the first change is made
+      for (std::size_t k = 0; k == 0 || k < second.size(); ++k) {
         if (budget_.is_spent()) return false;
         const bool is_better = try_edit(near, [&](std::vector<Index>& nodes) {
           nodes = near;
           if (!apply(mesh_, c, nodes)) return false;
           std::erase_if(nodes, [&](Index v) { return !mesh_.is_live_vertex(v); });
           sort_unique(nodes);
-          const std::vector<Candidate> second = best_around(nodes, kLeastGainOfTwo - c.gain, kMostSecond);
-          seconds = second.size();
-          return k < seconds && apply(mesh_, second[k], nodes);
+          if (k == 0) second = best_around(nodes, kLeastGainOfTwo - c.gain, kMostSecond);
+          return k < second.size() && apply(mesh_, second[k], nodes);
         });
         if (is_better) return true;
       }

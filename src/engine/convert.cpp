@@ -9,37 +9,11 @@
 #include "engine/convert_region.hpp"
 #include "engine/overlap.hpp"
 #include "engine/surface.hpp"
-#include "engine/worth.hpp"
 #include "layers/find_layers.hpp"
-#include "quality/directed_size.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
 namespace {
-
-/// As stretched triangles, if they are, unless that makes a quad poor and the usual way does not, and keeps sizes, too.
-kernel::Mesh convert_one(const Region& region, const Plane& plane, const Options& options, double allowed,
-                         ConversionReport& report, Record& record) {
-  constexpr double kPoor = 0.3;
-  std::optional<kernel::Mesh> stretched;
-  if (options.layers) stretched = stretch::convert_stretched(region, plane, options, allowed, report, record);
-  if (!stretched) return convert_region(region, plane, options, allowed, report, record);
-  const auto is_poor = [&](const kernel::Mesh& mesh) { return worth_of(mesh, region.triangles.size()).least < kPoor; };
-  if (!is_poor(*stretched)) return std::move(*stretched);
-  try {
-    ConversionReport usual_report;
-    Record usual_record;
-    const std::size_t cost = stretched->work();
-    kernel::Mesh usual = convert_region(region, plane, options, allowed - double(cost), usual_report, usual_record);
-    if (!is_poor(usual) && stretch::size_ratio(region, usual) <= kLargestSizeRatio) {
-      usual.add_work(cost);
-      report = std::move(usual_report), record = std::move(usual_record);
-      return usual;
-    }
-  } catch (const SurfaceError&) {  // that there is another result is enough
-  }
-  return std::move(*stretched);
-}
 
 /// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
 /// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
@@ -52,7 +26,10 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
   std::vector<char> is_stuck(surface.regions.size(), false);
   const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
     try {
-      return convert_one(surface.regions[r], surface.plane, own, allowed, report, record);
+      if (options.layers)
+        if (auto mesh = stretch::convert_stretched(surface.regions[r], surface.plane, own, allowed, report, record))
+          return std::move(*mesh);
+      return convert_region(surface.regions[r], surface.plane, own, allowed, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = true;
@@ -106,7 +83,7 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   for (int i = 0; options.layers && i < kTries; ++i) {
     const auto layers = layers::find_layers(patch, stuck);
     if (!layers) break;
-    if (plane) {
+    if (plane && i == 0) {
       const Surface whole(patch, *plane);
       require_fronts(whole.regions, *plane);
       require_no_overlap(whole.regions, *plane);

@@ -83,11 +83,9 @@ class RegionConverter {
       }
       if (!result.fault) return result;
       fault = result.fault;
-      if (start_.face_slots() == 0) start();
     }
     // A front has no room in fans and needles. Pairing the triangles as they are often has.
-    Attempt paired = begin(std::move(start_), options_, allowed_ - double(cost_), Way::without_front);
-    finish(paired);
+    Attempt paired = pair_triangles();
     take_chords(paired);
     if (paired.fault) throw *fault;
     return paired;
@@ -146,15 +144,20 @@ class RegionConverter {
     if (!laid.fault && is_better(judge(laid.mesh), worth)) best = std::move(laid);
   }
 
+  Attempt pair_triangles() {
+    if (start_.face_slots() == 0) start();  // the front has taken it
+    Attempt paired = begin(start_, options_, allowed_ - double(cost_), Way::without_front);
+    finish(paired);
+    return paired;
+  }
+
   /// Where the front has gone astray, among triangles that leave it no room, they may be worth more paired as they are.
   void take_pairs(Attempt& best) {
     constexpr double kPoorMean = 0.6;
     const Worth worth = judge(best.mesh);
     const bool is_astray = worth.mean < kPoorMean && worth.growth > 2 * kFairGrowth;
     if (best.fault || !is_astray) return;
-    if (start_.face_slots() == 0) start();
-    Attempt paired = begin(start_, options_, allowed_ - double(cost_), Way::without_front);
-    finish(paired);
+    Attempt paired = pair_triangles();
     if (!paired.fault && is_better(judge(paired.mesh), worth)) best = std::move(paired);
   }
 

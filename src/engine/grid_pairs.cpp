@@ -7,6 +7,8 @@
 #include <deque>
 #include <vector>
 
+#include "topology/edits.hpp"
+
 namespace qmorph {
 namespace {
 
@@ -79,13 +81,6 @@ bool is_regular(const Mesh& cells) {
   return true;
 }
 
-double smallest_sine(const Mesh& mesh) {
-  double least = 1;
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f)) least = std::min(least, mesh.smallest_sine(f));
-  return least;
-}
-
 std::size_t count_inner_nodes(const Mesh& mesh) {
   std::size_t count = 0;
   for (Index v = 0; v < mesh.vertex_slots(); ++v) count += mesh.is_live_vertex(v) && !mesh.is_boundary(v);
@@ -116,14 +111,14 @@ std::optional<Mesh> pair_as_grid(const Mesh& triangles) {
   for (Index h : triangles.sides_of(first)) {
     if (!diagonals.spread_from(h)) continue;
     auto cells = join_pairs(triangles, diagonals);
-    if (cells && (!best || smallest_sine(*cells) > smallest_sine(*best))) best = std::move(cells);
+    if (cells && (!best || topology::smallest_sine(*cells) > topology::smallest_sine(*best))) best = std::move(cells);
   }
   return best;
 }
 
 bool is_good_grid(const Mesh& triangles) {
   const auto cells = pair_as_grid(triangles);
-  return cells && smallest_sine(*cells) >= kPoorestCell;
+  return cells && topology::smallest_sine(*cells) >= kPoorestCell;
 }
 
 }  // namespace qmorph

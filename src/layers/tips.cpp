@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/quality.hpp"
+
 namespace qmorph::layers {
 namespace {
 
@@ -17,14 +19,9 @@ using Eigen::Vector3d;
 
 /// Scaled Jacobian, by the quad's own normal.
 double smallest_sine(const Patch& patch, const Quad& quad) {
-  const auto side = [&](std::size_t i) -> Vector3d {
-    return patch.points[quad[(i + 1) % 4]] - patch.points[quad[i % 4]];
-  };
-  const Vector3d normal = (side(0) + side(1)).cross(side(1) + side(2)).normalized();
-  double least = 1;
-  for (std::size_t i = 0; i < 4; ++i)
-    least = std::min(least, side(i + 3).cross(side(i)).dot(normal) / (side(i + 3).norm() * side(i).norm()));
-  return least;
+  QuadCorners corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = patch.points[quad[i]];
+  return scaled_jacobian(corners, (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized());
 }
 
 /// Quads around nodes that may be those in the middle of a tip.

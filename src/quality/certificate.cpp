@@ -9,6 +9,7 @@
 
 #include "chart/creases.hpp"
 #include "quality/shapes.hpp"
+#include "space/closest_point.hpp"
 #include "space/corners.hpp"
 #include "space/element_sides.hpp"
 #include "space/faults.hpp"
@@ -22,10 +23,7 @@ using space::Corners;
 
 /// Distance of p from the segment ab.
 double distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d ab = b - a;
-  const double length2 = ab.squaredNorm();
-  const double share = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0;
-  return (p - a - share * ab).norm();
+  return (p - a - space::closest_on_segment(p, a, b) * (b - a)).norm();
 }
 
 class Explanation {

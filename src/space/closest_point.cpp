@@ -10,13 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Weight at b of the point of segment ab closest to p.
-double closest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d ab = b - a;
-  const double length2 = ab.squaredNorm();
-  return length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
-}
-
 OnTriangle closest_on_sides(const Vector3d& p, const std::array<const Vector3d*, 3>& corners) {
   OnTriangle best;
   best.distance2 = std::numeric_limits<double>::infinity();
@@ -35,6 +28,12 @@ OnTriangle closest_on_sides(const Vector3d& p, const std::array<const Vector3d*,
 }
 
 }  // namespace
+
+double closest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  return length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+}
 
 OnTriangle closest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a;

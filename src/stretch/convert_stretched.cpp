@@ -9,7 +9,9 @@
 #include "chart/chart.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/grid_pairs.hpp"
+#include "engine/worth.hpp"
 #include "geometry/predicates.hpp"
+#include "qmorph/certificate.hpp"
 #include "quality/directed_size.hpp"
 #include "stretch/flat_lengths.hpp"
 #include "stretch/metric_field.hpp"
@@ -145,6 +147,22 @@ class StretchedRegion {
   const chart::Chart chart_;
 };
 
+/// By how much sizes are off those of the triangles, in the direction in which that is more.
+double size_ratio(const Region& region, const kernel::Mesh& mesh) {
+  Patch before;
+  for (const Vec2& p : region.points) before.points.emplace_back(p.x(), p.y(), 0);
+  before.triangles = region.triangles;
+  std::vector<Eigen::Vector3d> points;
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), 0);
+  std::vector<std::array<Index, 4>> quads;
+  for (Index f = 0; f < mesh.face_slots(); ++f) {
+    if (!mesh.is_live_face(f) || mesh.degree(f) != 4) continue;
+    const Index h = mesh.half_edge(f);
+    quads.push_back({mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))});
+  }
+  return largest_ratio(median(directed_sizes(before, points, quads)));
+}
+
 /// Share of the inner nodes that have other than four edges.
 double irregular_share(const kernel::Mesh& mesh) {
   std::size_t inner = 0, irregular = 0;
@@ -171,6 +189,24 @@ struct Attempt {
   ConversionReport report{};
   Record record{};
 };
+
+/// What decides between quads made in the chart and those of a front among the stretched triangles.
+struct Measure {
+  double size_ratio, irregular, least;
+
+  bool loses_sizes() const { return size_ratio > kLargestSizeRatio; }
+  bool is_poor() const { return least < kPoorQuad; }
+  bool is_better_than(const Measure& other) const {
+    // Such a front often keeps sizes by many small quads without any order.
+    if (other.loses_sizes() && size_ratio + irregular < other.size_ratio + other.irregular) return true;
+    return other.is_poor() && !is_poor() && !loses_sizes();
+  }
+};
+
+Measure measure(const Attempt& attempt, const Region& region) {
+  return {size_ratio(region, attempt.mesh), irregular_share(attempt.mesh),
+          worth_of(attempt.mesh, region.triangles.size()).least};
+}
 
 /// Nothing if there is no valid result.
 template <class Work>
@@ -199,31 +235,18 @@ std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane&
   std::optional<Attempt> best =
       attempt(field, [&](Attempt& own) { return stretched.convert(options, allowed, own.report, own.record); });
   if (!best) return {};
-  if (const double off = size_ratio(region, best->mesh); off > kLargestSizeRatio) {
-    std::optional<Attempt> plain = attempt(
-        field, [&](Attempt& own) { return convert_region(region, plane, options, allowed, own.report, own.record); });
-    // A front among stretched triangles often keeps sizes by many small quads without any order.
-    if (plain && size_ratio(region, plain->mesh) + irregular_share(plain->mesh) < off + irregular_share(best->mesh))
-      best = std::move(plain);
+  const Measure own = measure(*best, region);
+  if (own.loses_sizes() || own.is_poor()) {
+    const std::size_t cost = best->mesh.work();
+    std::optional<Attempt> plain = attempt(field, [&](Attempt& other) {
+      return convert_region(region, plane, options, allowed - double(cost), other.report, other.record);
+    });
+    if (plain) plain->mesh.add_work(cost);
+    if (plain && measure(*plain, region).is_better_than(own)) best = std::move(plain);
   }
   report = best->report;
   record = std::move(best->record);
   return std::move(best->mesh);
-}
-
-double size_ratio(const Region& region, const kernel::Mesh& mesh) {
-  Patch before;
-  for (const Vec2& p : region.points) before.points.emplace_back(p.x(), p.y(), 0);
-  before.triangles = region.triangles;
-  std::vector<Eigen::Vector3d> points;
-  for (Index v = 0; v < mesh.vertex_slots(); ++v) points.emplace_back(mesh.point(v).x(), mesh.point(v).y(), 0);
-  std::vector<std::array<Index, 4>> quads;
-  for (Index f = 0; f < mesh.face_slots(); ++f) {
-    if (!mesh.is_live_face(f) || mesh.degree(f) != 4) continue;
-    const Index h = mesh.half_edge(f);
-    quads.push_back({mesh.origin(h), mesh.target(h), mesh.target(mesh.next(h)), mesh.origin(mesh.prev(h))});
-  }
-  return largest_ratio(median(directed_sizes(before, points, quads)));
 }
 
 }  // namespace qmorph::stretch

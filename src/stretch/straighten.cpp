@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "smoothing/grid.hpp"
+#include "topology/edits.hpp"
 
 namespace qmorph::stretch {
 namespace {
@@ -234,17 +235,11 @@ class Straightening {
       bool any = false;
       for (Index f = 0; f < mesh_.face_slots(); ++f) {
         if (!mesh_.is_live_face(f) || sine(f) >= kPoor) continue;
-        for (Index v : corners_of(f))
+        for (Index v : topology::nodes_of(mesh_, f))
           if (mesh_.is_free(v)) any |= raise(v);
       }
       if (!any) return;
     }
-  }
-
-  std::vector<Index> corners_of(Index f) const {
-    std::vector<Index> corners;
-    mesh_.for_nodes_of(f, [&](Index v) { corners.push_back(v); });
-    return corners;
   }
 
   /// To where the smallest sine around is largest, by compass search.

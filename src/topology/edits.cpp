@@ -142,6 +142,13 @@ Index draw_path(kernel::Mesh& mesh, Index a, Index b, const std::vector<Vec2>& p
   return first;
 }
 
+double smallest_sine(const kernel::Mesh& mesh) {
+  double least = 1;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f)) least = std::min(least, mesh.smallest_sine(f));
+  return least;
+}
+
 double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   const std::size_t n = nodes.size();
   double least = 1;

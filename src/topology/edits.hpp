@@ -37,6 +37,9 @@ Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v);
 /// Nodes of a face, counter-clockwise.
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f);
 
+/// Smallest corner sine of all faces.
+double smallest_sine(const kernel::Mesh& mesh);
+
 /// Smallest corner sine of the polygon that runs through these nodes, counter-clockwise.
 double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 

@@ -6,6 +6,7 @@
 
 #include "cleanup/fixture.hpp"
 #include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
 
 namespace {
 
@@ -18,13 +19,6 @@ CleanupOptions everything() {
   options.connectivity_cases = options.boundary_cases = options.transition_cases = true;
   options.diamond_cases = options.shape_cases = true;
   return options;
-}
-
-double worst_sine(const Mesh& mesh) {
-  double worst = 1;
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f)) worst = std::min(worst, mesh.smallest_sine(f));
-  return worst;
 }
 
 /// Runs it on the mesh and on its mirror image, which must come out as mirror images of each other: the same figures.
@@ -49,7 +43,7 @@ void in_both_hands(const Mesh& mesh, const CleanUp& clean_up, const Check& check
 TEST_CASE("chevron: at the boundary it is filled together with a neighbour") {
   const Mesh mesh =
       drawn({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0.3, 0.3}}, {{3, 4, 6, 2}, {6, 4, 5, 0}, {6, 0, 1, 2}});
-  REQUIRE(worst_sine(mesh) < 0);
+  REQUIRE(topology::smallest_sine(mesh) < 0);
   in_both_hands(mesh, cleanup::eliminate_chevrons, [](const Mesh& m) {
     CHECK(count_quads(m) == 4);
     CHECK(m.valence(3) == 3);  // fill_3: one edge divides the angle
@@ -59,10 +53,10 @@ TEST_CASE("chevron: at the boundary it is filled together with a neighbour") {
 TEST_CASE("chevron: inside, moving the node is enough") {
   Mesh mesh = quad_grid(2, 2);
   mesh.set_point(4, {0.3, 0.3});
-  REQUIRE(worst_sine(mesh) < 0);
+  REQUIRE(topology::smallest_sine(mesh) < 0);
   in_both_hands(mesh, cleanup::eliminate_chevrons, [](const Mesh& m) {
     CHECK(count_quads(m) == 4);
-    CHECK(worst_sine(m) > 0.9);
+    CHECK(topology::smallest_sine(m) > 0.9);
   });
 }
 
@@ -84,10 +78,10 @@ TEST_CASE("chevron: the limit is an option, and without a chevron nothing is tou
 TEST_CASE("boundary: a quad shaped like a triangle becomes a row") {
   const Mesh mesh = drawn({{-2, 0}, {-1, 0}, {0, 0}, {1, 0}, {2, 0}, {0, 1}, {-2, 1}, {2, 1}, {2, 2}, {0, 2}, {-2, 2}},
                           {{2, 3, 5, 1}, {0, 1, 5, 6}, {3, 4, 7, 5}, {6, 5, 9, 10}, {5, 7, 8, 9}});
-  REQUIRE(worst_sine(mesh) == 0);
+  REQUIRE(topology::smallest_sine(mesh) == 0);
   in_both_hands(mesh, cleanup::clean_up_boundary, [](const Mesh& m) {
     CHECK(m.valence(2) == 3);
-    CHECK(worst_sine(m) > 0.3);
+    CHECK(topology::smallest_sine(m) > 0.3);
   });
 }
 
@@ -119,7 +113,7 @@ TEST_CASE("boundary: a diamond closes, and a grid is left") {
   CHECK(count_quads(mesh) == 6);
   CHECK(irregular_nodes(mesh) == 0);
   CHECK(mesh.valence(2) == 3);
-  CHECK(worst_sine(mesh) > 0.9);
+  CHECK(topology::smallest_sine(mesh) > 0.9);
 }
 
 TEST_CASE("connectivity: a pattern is resolved where the quads can take shape, and so is its mirror image") {

@@ -56,13 +56,6 @@ double worst_at(const Mesh& mesh, Index v) {
   return worst;
 }
 
-double worst_of(const Mesh& mesh) {
-  double worst = 1;
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f)) worst = std::min(worst, mesh.smallest_sine(f));
-  return worst;
-}
-
 /// A grid of quads whose connectivity has been changed here and there, for the worse as well.
 Mesh spoilt_grid(Rng& rng) {
   constexpr int kChanges = 8, kAny = -100;
@@ -95,10 +88,10 @@ TEST_CASE("repair: two changes together raise poor quads that one alone does not
     Mesh mesh = spoilt_grid(rng);
     cleanup::repair(mesh, {});
     const Edges boundary = boundary_of(mesh);
-    const double worst = worst_of(mesh);
+    const double worst = topology::smallest_sine(mesh);
     CAPTURE(seed);
     changes += cleanup::repair_in_twos(mesh, {});
-    CHECK(worst_of(mesh) >= worst);
+    CHECK(topology::smallest_sine(mesh) >= worst);
     CHECK(defect(mesh) == "");
     CHECK(boundary_of(mesh) == boundary);
     CHECK(count_quads(mesh) == count(mesh).faces);

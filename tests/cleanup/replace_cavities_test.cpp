@@ -8,6 +8,7 @@
 
 #include "cleanup/rings.hpp"
 #include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
 
 namespace {
 
@@ -54,13 +55,6 @@ void check_that_all_vanish(Mesh mesh) {
   CHECK(boundary_of(mesh) == boundary);
   CHECK(boundary_points(mesh) == points);
   CHECK(count_quads(mesh) == count(mesh).faces);
-}
-
-double smallest_sine(const Mesh& mesh) {
-  double smallest = 1;
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f)) smallest = std::min(smallest, mesh.smallest_sine(f));
-  return smallest;
 }
 
 }  // namespace
@@ -145,12 +139,12 @@ TEST_CASE("poor cavities: where a quad is poor a filling raises the worst corner
   Mesh mesh = with_fixed_node(grid_with_turned_edge(8));
   for (Index v = 0; v < mesh.vertex_slots(); ++v)
     if (mesh.is_live_vertex(v)) mesh.set_point(v, {3 * mesh.point(v).x(), mesh.point(v).y()});
-  const double before = smallest_sine(mesh);
+  const double before = topology::smallest_sine(mesh);
   REQUIRE(before < 0.55);
   const Edges boundary = boundary_of(mesh);
   const std::vector<Vec2> points = boundary_points(mesh);
   CHECK(cleanup::replace_poor_cavities(mesh, {}) > 0);
-  CHECK(smallest_sine(mesh) >= before + 0.05);
+  CHECK(topology::smallest_sine(mesh) >= before + 0.05);
   CHECK(defect(mesh) == "");
   CHECK(boundary_of(mesh) == boundary);
   CHECK(boundary_points(mesh) == points);
@@ -158,7 +152,7 @@ TEST_CASE("poor cavities: where a quad is poor a filling raises the worst corner
 
 TEST_CASE("poor cavities: without a poor quad nothing changes, whatever the valences") {
   Mesh mesh = grid_with_star();
-  REQUIRE(smallest_sine(mesh) > 0.6);
+  REQUIRE(topology::smallest_sine(mesh) > 0.6);
   const Snapshot before = snapshot(mesh);
   CHECK(cleanup::replace_poor_cavities(mesh, {}) == 0);
   CHECK(snapshot(mesh) == before);

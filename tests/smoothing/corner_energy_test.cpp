@@ -6,19 +6,13 @@
 
 #include "cleanup/rings.hpp"
 #include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
 
 namespace {
 
 using namespace qmorph;
 using namespace qmorph::test;
 using smoothing::raise_worst_corners;
-
-double worst_sine(const Mesh& mesh) {
-  double worst = 1;
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f)) worst = std::min(worst, mesh.smallest_sine(f));
-  return worst;
-}
 
 /// Quads whose nodes, boundary too, are off the grid; valid.
 Mesh jittered_quads(Rng& rng) {
@@ -33,9 +27,9 @@ Mesh jittered_quads(Rng& rng) {
 TEST_CASE("raise corners: a node that was pushed aside comes back, and the worst corner is then a good one") {
   Mesh mesh = quad_grid(4, 4);
   mesh.set_point(12, Vec2(2.45, 2.4));
-  REQUIRE(worst_sine(mesh) < 0.5);
+  REQUIRE(topology::smallest_sine(mesh) < 0.5);
   raise_worst_corners(mesh, {});
-  CHECK(worst_sine(mesh) > 0.75);
+  CHECK(topology::smallest_sine(mesh) > 0.75);
 }
 
 TEST_CASE("raise corners: in any mesh the smallest sine rises or stays, and boundary and fixed nodes stay") {
@@ -49,8 +43,8 @@ TEST_CASE("raise corners: in any mesh the smallest sine rises or stays, and boun
     for (Index v = 0; v < mesh.vertex_slots(); v += 7) mesh.set_fixed(v);
     const Mesh start = mesh;
     raise_worst_corners(mesh, {});
-    CHECK(worst_sine(mesh) >= worst_sine(start));
-    raised += worst_sine(mesh) > worst_sine(start) + 1e-3;
+    CHECK(topology::smallest_sine(mesh) >= topology::smallest_sine(start));
+    raised += topology::smallest_sine(mesh) > topology::smallest_sine(start) + 1e-3;
     CHECK(defect(mesh) == "");
     CHECK(faces_of(mesh) == faces_of(start));
     for (Index v = 0; v < mesh.vertex_slots(); ++v)
@@ -74,8 +68,8 @@ TEST_CASE("raise corners: good corners stay as they are, to the bit") {
 TEST_CASE("raise corners: an inverted element makes no node move to where others get worse") {
   Mesh mesh = quad_grid(4, 4);
   mesh.set_point(12, Vec2(3.4, 2.2));
-  const double before = worst_sine(mesh);
+  const double before = topology::smallest_sine(mesh);
   REQUIRE(before < 0);
   raise_worst_corners(mesh, {});
-  CHECK(worst_sine(mesh) >= before);
+  CHECK(topology::smallest_sine(mesh) >= before);
 }

@@ -31,6 +31,16 @@ double smallest_sine(const std::array<Vector2d, 4>& p) {
   return smallest;
 }
 
+double smallest_sine(const std::vector<Eigen::Vector3d>& points, std::span<const std::array<Index, 4>> quads) {
+  double smallest = 1;
+  for (const auto& quad : quads) {
+    std::array<Vector2d, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = points[quad[i]].head<2>();
+    smallest = std::min(smallest, smallest_sine(corners));
+  }
+  return smallest;
+}
+
 std::vector<DraftEdge> edges_of(const Draft& draft) {
   std::vector<DraftEdge> sides;
   for (Index t = 0; t < draft.triangles.size(); ++t)

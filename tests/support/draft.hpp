@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "qmorph/patch.hpp"
@@ -28,6 +29,9 @@ double worst_flatness(const Draft& draft);
 
 /// The smallest sine of a corner of a quad, negative if one is reflex.
 double smallest_sine(const std::array<Eigen::Vector2d, 4>& corners);
+
+/// The same of quads between points that lie in a plane of constant z.
+double smallest_sine(const std::vector<Eigen::Vector3d>& points, std::span<const std::array<Index, 4>> quads);
 
 /// One undirected edge of the triangles, with what lies on its two sides.
 struct DraftEdge {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/sort_unique.hpp"
+#include "space/closest_point.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -23,10 +24,9 @@ constexpr double kShortest = 0.5;
 std::pair<double, double> nearest_on(const DividedCurve& curve, const Vector3d& p) {
   std::pair<double, double> best(0, (curve.points[0] - p).norm());
   for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
-    const Vector3d along = curve.points[i + 1] - curve.points[i];
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0 ? std::clamp((p - curve.points[i]).dot(along) / length2, 0.0, 1.0) : 0;
-    const double distance = (curve.points[i] + t * along - p).norm();
+    const Vector3d &a = curve.points[i], &b = curve.points[i + 1];
+    const double t = space::closest_on_segment(p, a, b);
+    const double distance = (a + t * (b - a) - p).norm();
     if (distance < best.second) best = {double(i) + t, distance};
   }
   return best;
