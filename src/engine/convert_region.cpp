@@ -131,8 +131,8 @@ class RegionConverter {
     }
   }
 
-  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth more
-  /// and the worst is no worse.
+  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth
+  /// more and the worst is no worse.
   void take_chords(Attempt& best) {
     constexpr double kPoor = 0.3;
     const Worth worth = judge(best.mesh);
@@ -270,8 +270,8 @@ class RegionConverter {
                        [&](const Front& front) { return front.decisions.would_be_same(options); });
   }
 
-  /// Where the triangles are a grid's, their cells; moved only if that makes the worst much better. Nothing if a cell is
-  /// poor, or there is no grid.
+  /// Where the triangles are a grid's, their cells; moved only if that makes the worst much better. Nothing if a cell
+  /// is poor, or there is no grid.
   std::optional<Attempt> attempt_as_grid() {
     constexpr double kMuch = 0.01;  // worth moving for
     auto cells = options_.layers ? pair_as_grid(start_) : std::nullopt;

@@ -175,7 +175,8 @@ double irregular_share(const kernel::Mesh& mesh) {
   return inner > 0 ? double(irregular) / double(inner) : 0;
 }
 
-/// What is straight by the metric is straight; what is right by the metric may be as thin in the plane as triangles are.
+/// What is straight by the metric is straight; what is right by the metric may be as thin in the plane as triangles
+/// are.
 bool is_valid(const kernel::Mesh& mesh, const MetricField& field) {
   const double least = std::max(kDegenerateSine, kStraightSine / field.largest_ratio());
   for (Index f = 0; f < mesh.face_slots(); ++f)

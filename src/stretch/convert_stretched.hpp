@@ -13,8 +13,8 @@
 namespace qmorph::stretch {
 
 /// As convert_region(), in a chart in which the triangles are about as long as wide; where that loses sizes or has a
-/// poor quad, what convert_region() makes, if that is better. Nothing if the region is not stretched, has no such chart,
-/// or has no valid result in it. Cost where nothing is stretched: some nanoseconds a triangle.
+/// poor quad, what convert_region() makes, if that is better. Nothing if the region is not stretched, has no such
+/// chart, or has no valid result in it. Cost where nothing is stretched: some nanoseconds a triangle.
 std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane& plane, const Options& options,
                                               double allowed, ConversionReport& report, Record& record);
 

@@ -52,7 +52,9 @@ struct Energy {
   Vec2 gradient = Vec2::Zero();
   Form hessian{};  ///< without what may be negative in it
 
-  /// \param slope of the area and \param pull half the gradient of the squares, \param stiff half their second derivative
+  /// \param slope of the area
+  /// \param pull half the gradient of the squares
+  /// \param stiff half their second derivative
   void add(double squares, double area, const Vec2& slope, const Vec2& pull, const Form& stiff) {
     if (!(area > 0)) {
       finite = false;

@@ -18,8 +18,8 @@ using qmorph::Patch;
 
 namespace {
 
-/// Two rows round a corner, in two spokes of 36 degrees: a pair of triangles at the tip, and two quads around it. Before
-/// them other quads elsewhere.
+/// Two rows round a corner, in two spokes of 36 degrees: a pair of triangles at the tip, and two quads around it.
+/// Before them other quads elsewhere.
 Patch fan(std::size_t others) {
   Patch patch;
   patch.points.emplace_back(0, 0, 0);
