@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "chart/creases.hpp"
 #include "space/angle_sum.hpp"
+#include "space/creases.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -31,7 +31,7 @@ CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) 
     if (region.open[side])
       barriers.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
   background = std::make_unique<const space::Background>(points, region.triangles, barriers);
-  creases = find_creases(*background, crease_angle);
+  creases = space::find_creases(*background, crease_angle);
   if (crease_angle < std::numbers::pi) find_tips(2 * std::numbers::pi * (1 - std::cos(crease_angle)));
 }
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <set>
 
-#include "chart/creases.hpp"
 #include "quality/shapes.hpp"
 #include "space/closest_point.hpp"
 #include "space/corners.hpp"
+#include "space/creases.hpp"
 #include "space/element_sides.hpp"
 #include "space/faults.hpp"
 #include "space/result.hpp"
@@ -63,7 +63,7 @@ class Explanation {
       std::vector<space::Background::Edge> barriers;
       for (const auto& [a, b] : before_.constraints) barriers.push_back({a, b});
       const space::Background surface(before_.points, before_.triangles, barriers);
-      for (const auto& [a, b] : chart::find_creases(surface, crease_angle)) add(a, b);
+      for (const auto& [a, b] : space::find_creases(surface, crease_angle)) add(a, b);
     }
     return edges;
   }

@@ -7,11 +7,11 @@
 #include <cstring>
 #include <set>
 
-#include "chart/creases.hpp"
 #include "chart/fixture.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/error.hpp"
 #include "qmorph/quality.hpp"
+#include "space/creases.hpp"
 #include "space/surfaces.hpp"
 #include "support/invariants.hpp"
 #include "support/on_surface.hpp"
@@ -150,7 +150,7 @@ TEST_CASE("curved: sharp edges stay, whole or with a node in their middle") {
   for (Index v = 0; v < mesh.source.size(); ++v)
     if (mesh.source[v] != kNone) row[mesh.source[v]] = v;
   int whole = 0, split = 0;
-  for (const auto& [a, b] : chart::find_creases(surface, 0.7)) {
+  for (const auto& [a, b] : space::find_creases(surface, 0.7)) {
     REQUIRE(row[a] != kNone);
     REQUIRE(row[b] != kNone);
     CHECK(mesh.points[row[a]] == patch.points[a]);

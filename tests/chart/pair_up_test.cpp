@@ -2,11 +2,11 @@
 // What is done where no chart is found, and where there are too few nodes.
 #include <algorithm>
 
-#include "chart/creases.hpp"
 #include "chart/fixture.hpp"
 #include "chart/flatten.hpp"
 #include "chart/pair_up.hpp"
 #include "chart/refine.hpp"
+#include "space/creases.hpp"
 #include "support/on_surface.hpp"
 
 using namespace qmorph;

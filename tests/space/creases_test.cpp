@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sharp edges, and bends that are only coarse.
-#include "chart/creases.hpp"
+#include "space/creases.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<std::pair<Index, Index>> creases(const Patch& patch, double degrees = 40) {
   const space::Background surface(patch.points, patch.triangles);
-  return chart::find_creases(surface, degrees * kDegree);
+  return space::find_creases(surface, degrees * kDegree);
 }
 
 /// Strips of unit squares side by side, turned by these angles (degrees) one against the other.

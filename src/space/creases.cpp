@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "chart/creases.hpp"
+#include "space/creases.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "kernel/sort_unique.hpp"
 
-namespace qmorph::chart {
+namespace qmorph::space {
 namespace {
 
 using Eigen::Vector3d;
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 /// The normal of a triangle that is not so high, relative to its longest side, says nothing.
 constexpr double kLeastHeight = 1e-3;
 
-bool has_normal(const space::Background& surface, Index t) {
+bool has_normal(const Background& surface, Index t) {
   double longest = 0;
   for (int i = 0; i < 3; ++i)
     longest = std::max(longest, (surface.corner(t, (i + 1) % 3) - surface.corner(t, i)).squaredNorm());
@@ -34,7 +34,7 @@ constexpr Index kMostOfFan = 24;
 
 /// By how much the surface turns on around `axis`, from the triangle of `side` to those at its corner across. Infinite
 /// where the surface ends there, and how it would go on is unknown.
-double turn_beyond(const space::Background& surface, Index side, const Vector3d& axis) {
+double turn_beyond(const Background& surface, Index side, const Vector3d& axis) {
   const Index from = side / 3, corner = 3 * from + (side + 2) % 3;
   const Vector3d start = surface.normal(from) - surface.normal(from).dot(axis) * axis;
   double most = 0;
@@ -46,7 +46,7 @@ double turn_beyond(const space::Background& surface, Index side, const Vector3d&
   return most;
 }
 
-bool is_of_bend(const space::Background& surface, Index side, double angle) {
+bool is_of_bend(const Background& surface, Index side, double angle) {
   const Index other = surface.opposite(side);
   const Vector3d axis = surface.normal(side / 3).cross(surface.normal(other / 3)).normalized();
   return angle < kMostOfBend && turn_beyond(surface, other, axis) > kLeastBeyond * angle &&
@@ -54,7 +54,7 @@ bool is_of_bend(const space::Background& surface, Index side, double angle) {
 }
 
 /// Faces between creases, by triangle: the number of the face.
-std::vector<Index> faces_between(const space::Background& surface, const std::vector<bool>& is_crease, Index& count) {
+std::vector<Index> faces_between(const Background& surface, const std::vector<bool>& is_crease, Index& count) {
   std::vector<Index> face(surface.triangles(), kNone);
   count = 0;
   for (Index first = 0; first < surface.triangles(); ++first) {
@@ -75,8 +75,7 @@ std::vector<Index> faces_between(const space::Background& surface, const std::ve
 
 /// A face between creases that is one triangle, or two beside some that have no normal, is a fault of the
 /// triangulation, not one of the shape: what is sharp around it says nothing.
-void drop_around_crumbs(const space::Background& surface, const std::vector<char>& counts,
-                        std::vector<bool>& is_crease) {
+void drop_around_crumbs(const Background& surface, const std::vector<char>& counts, std::vector<bool>& is_crease) {
   constexpr std::size_t kFew = 2;
   Index faces = 0;
   const std::vector<Index> face = faces_between(surface, is_crease, faces);
@@ -91,7 +90,7 @@ void drop_around_crumbs(const space::Background& surface, const std::vector<char
 
 }  // namespace
 
-std::vector<std::pair<Index, Index>> find_creases(const space::Background& surface, double angle) {
+std::vector<std::pair<Index, Index>> find_creases(const Background& surface, double angle) {
   std::vector<std::pair<Index, Index>> creases;
   if (angle >= std::numbers::pi) return creases;
   const double least = std::cos(angle);
@@ -113,4 +112,4 @@ std::vector<std::pair<Index, Index>> find_creases(const space::Background& surfa
   return creases;
 }
 
-}  // namespace qmorph::chart
+}  // namespace qmorph::space
