@@ -7,6 +7,7 @@
 #include "chart/convert_curved.hpp"
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
+#include "engine/grid_pairs.hpp"
 #include "engine/overlap.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
@@ -72,11 +73,21 @@ void add_layers(const Patch& patch, const layers::Layers& layers, const std::opt
   std::for_each(stages.begin(), stages.end(), mend_sources);
 }
 
+/// Marks the nodes of regions that are grids of cells that are no layers'. Whether there are any.
+bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
+  bool is_any = false;
+  for (const Region& region : surface.regions) {
+    if (!is_unstretched_grid(kernel::Mesh(region.points, region.triangles, region.open))) continue;
+    is_any = true;
+    for (Index v : region.node) nodes[v] = true;
+  }
+  return is_any;
+}
+
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
 /// layers around it are left to the front as well, and at last all of them.
 SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   constexpr int kTries = 2;
-  require_sound(patch);
   if (patch.triangles.empty()) return convert_triangles(patch, {}, options, nullptr);
   const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
@@ -87,6 +98,7 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
       const Surface whole(patch, *plane);
       require_fronts(whole.regions, *plane);
       require_no_overlap(whole.regions, *plane);
+      if (!layers->patch.triangles.empty() && mark_grids(whole, stuck)) continue;
     }
     std::vector<bool> stuck_now(layers->patch.points.size(), false);
     SurfaceWork work = convert_triangles(layers->patch, plane, options, &stuck_now);
