@@ -5,16 +5,44 @@
 #include <optional>
 
 #include "chart/convert_curved.hpp"
+#include "engine/canonical/rounded.hpp"
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/grid_pairs.hpp"
 #include "engine/overlap.hpp"
+#include "engine/pipeline.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
 namespace {
+
+kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, double allowed,
+                          ConversionReport& report, Record& record) {
+  if (options.layers)
+    if (auto mesh = stretch::convert_stretched(region, plane, options, allowed, report, record))
+      return std::move(*mesh);
+  return convert_region(region, plane, options, allowed, report, record);
+}
+
+/// With rounded coordinates; nothing where they are not to be rounded, or where an element would be bad without that.
+std::optional<kernel::Mesh> convert_rounded(const Region& region, const Plane& plane, const Options& options,
+                                            double allowed, ConversionReport& report, Record& record) {
+  const auto rounded = canonical::rounded(region, plane);
+  if (!rounded) return {};
+  try {
+    kernel::Mesh mesh = convert_flat(rounded->region, rounded->plane, options, allowed, report, record);
+    canonical::put_back(mesh, *rounded, region);
+    for (auto& stage : record.stages)
+      if (stage) canonical::put_back(*stage, *rounded, region);
+    if (!find_fault(mesh, region, plane)) return mesh;
+  } catch (const SurfaceError&) {
+  }
+  report = {};
+  record = {};
+  return {};
+}
 
 /// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
 /// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
@@ -27,10 +55,9 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
   std::vector<char> is_stuck(surface.regions.size(), false);
   const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
     try {
-      if (options.layers)
-        if (auto mesh = stretch::convert_stretched(surface.regions[r], surface.plane, own, allowed, report, record))
-          return std::move(*mesh);
-      return convert_region(surface.regions[r], surface.plane, own, allowed, report, record);
+      const Region& region = surface.regions[r];
+      if (auto mesh = convert_rounded(region, surface.plane, own, allowed, report, record)) return std::move(*mesh);
+      return convert_flat(region, surface.plane, own, allowed, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = true;

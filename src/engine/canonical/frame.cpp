@@ -16,8 +16,6 @@ using Eigen::Vector3d;
 
 /// Moments of the middles, in a box from -1 to 1 around the surface, that differ by less are the same but for rounding.
 constexpr double kSame = 1e-9;
-/// The area as a vector is that much smaller than the sum of all areas where normals differ by a few millionths.
-constexpr double kSameNormals = 1e-11;
 
 using Powers = std::array<int, 3>;
 /// What decides, one after another: which way the surface is longest, on which side its elements are finer, ...
@@ -87,7 +85,6 @@ class Moments {
     return sums_[std::size_t(powers[0])][std::size_t(powers[1])][std::size_t(powers[2])];
   }
   const Vector3d& area() const { return area_; }
-  bool is_flat() const { return area_.norm() > (1 - kSameNormals) * whole_area_; }
   double volume() const { return volume_; }
 
  private:
@@ -103,13 +100,11 @@ class Moments {
   void add_area(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const Vector3d area = (b - a).cross(c - a);
     area_ += area;
-    whole_area_ += area.norm();
     volume_ += a.dot(area);
   }
 
   std::array<std::array<std::array<double, 4>, 4>, 4> sums_{};  ///< by powers of x, y and z
   Vector3d area_ = Vector3d::Zero();                            ///< twice the area, along the normal
-  double whole_area_ = 0;                                       ///< without its direction
   double volume_ = 0;                                           ///< six times what a closed surface encloses
 };
 
@@ -163,12 +158,13 @@ std::uint64_t mixed(std::uint64_t z) {
 }
 
 /// A number for the surface's coordinates in a frame that does not depend on how nodes and elements are numbered, nor on
-/// which way elements run round.
-std::uint64_t fingerprint(const Patch& patch, const Frame& frame) {
+/// which way elements run round, nor on powers of two in scale.
+std::uint64_t fingerprint(const Patch& patch, const Frame& frame, double size) {
+  const double unit = std::exp2(std::ilogb(size));
   std::vector<std::uint64_t> nodes;
   nodes.reserve(patch.points.size());
   for (const Vector3d& point : patch.points) {
-    const Vector3d p = frame.to_own(point);
+    const Vector3d p = frame.to_own(point) / unit;
     std::uint64_t node = 0;
     for (Eigen::Index i = 0; i < 3; ++i) node = mixed(node ^ std::bit_cast<std::uint64_t>(p[i]));
     nodes.push_back(node);
@@ -192,40 +188,12 @@ bool is_seen_from_behind(const Moments& moments, const Frame& frame) {
   return frame.handedness() < 0;
 }
 
-/// Three corners, none of them nearer than this to the line through the others.
-bool is_higher(const Vector3d& a, const Vector3d& b, const Vector3d& c, double height) {
-  const Vector3d ab = b - a, bc = c - b, ca = a - c;
-  const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
-  return ab.cross(bc).squaredNorm() > height * height * longest;
-}
-
-/// Where a surface that is moved gets coordinates that are rounded otherwise, its coordinates from the corner of its box
-/// are the same again when they are rounded to these steps, nearly always. 0 where an element is too small for it.
-double quantum_of(const Patch& patch, const Box& box) {
-  constexpr double kSteps = 0x1p-36;       // of the box
-  constexpr double kLeastHeight = 0x1p20;  // quanta: angles change by less than a millionth
-  constexpr double kUnlike = 1.37;         // so that sizes that are powers of two are not where the quantum changes
-  if (!(box.size() > 0)) return 0;
-  const double quantum = kSteps * std::exp2(std::ilogb(kUnlike * box.size()));
-  bool is_fine = std::isnormal(quantum) && std::isfinite(box.size() / quantum);
-  for_each_element(patch, [&](const auto& element) {
-    for (std::size_t i = 0; is_fine && i < (element.size() == 3 ? 1 : element.size()); ++i) {
-      const auto at = [&](std::size_t k) -> const Vector3d& { return patch.points[element[(i + k) % element.size()]]; };
-      is_fine = is_higher(at(0), at(1), at(2), kLeastHeight * quantum);
-    }
-  });
-  return is_fine ? quantum : 0;
-}
-
 }  // namespace
 
 Vector3d Frame::to_own(const Vector3d& model) const {
-  constexpr double kWhole = 0x1p52;  // the spacing of numbers from here on is 1
   Vector3d own;
   for (std::size_t i = 0; i < 3; ++i) {
-    double x = sign[i] * (model[axis[i]] - origin[i]);
-    if (quantum > 0) x = (x / quantum + kWhole - kWhole) * quantum;
-    own[Eigen::Index(i)] = x + 0.0;  // -0 is 0
+    own[Eigen::Index(i)] = sign[i] * (model[axis[i]] - origin[i]) + 0.0;  // -0 is 0
   }
   return own;
 }
@@ -253,14 +221,11 @@ Frame find_frame(const Patch& patch) {
   std::vector<Frame> frames = all_frames(box);
   for (const Powers& powers : kMoments) keep_largest(frames, moments, powers);
   std::vector<std::uint64_t> prints;
-  if (frames.size() > 1)
-    for (const Frame& frame : frames) prints.push_back(fingerprint(patch, frame));
+  if (frames.size() > 1 && box.size() > 0)
+    for (const Frame& frame : frames) prints.push_back(fingerprint(patch, frame, box.size()));
   Frame frame =
       prints.empty() ? frames[0] : frames[std::size_t(std::min_element(prints.begin(), prints.end()) - prints.begin())];
   frame.turns_over = is_seen_from_behind(moments, frame);
-  if (moments.is_flat()) frame.quantum = quantum_of(patch, box);  // else nodes would leave the triangles
-  for (std::size_t i = 0; frame.quantum > 0 && i < 3; ++i)
-    frame.origin[i] = frame.sign[i] > 0 ? box.low[frame.axis[i]] : box.high[frame.axis[i]];
   return frame;
 }
 

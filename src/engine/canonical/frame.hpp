@@ -10,11 +10,11 @@ namespace qmorph::canonical {
 /// Axes of a surface's own, by its shape: the model's, exchanged and turned round. A surface that is rotated by right
 /// angles or mirrored has the same coordinates along them, bit for bit.
 struct Frame {
-  std::array<int, 3> axis{0, 1, 2};       ///< of the model, for each of ours
-  std::array<double, 3> sign{1, 1, 1};    ///< -1 where ours runs the other way
-  std::array<double, 3> origin{0, 0, 0};  ///< along each of ours, a coordinate of the model
-  double quantum = 0;       ///< coordinates are rounded to multiples of it, a power of two; 0: they are not
-  bool turns_over = false;  ///< elements are seen from their other side
+  std::array<int, 3> axis{0, 1, 2};     ///< of the model, for each of ours
+  std::array<double, 3> sign{1, 1, 1};  ///< -1 where ours runs the other way
+  std::array<double, 3> origin{0, 0,
+                               0};  ///< along each of ours, a coordinate of the model; not 0 across a flat surface
+  bool turns_over = false;          ///< elements are seen from their other side
 
   Eigen::Vector3d to_own(const Eigen::Vector3d& model) const;
   Eigen::Vector3d to_model(const Eigen::Vector3d& own) const;
