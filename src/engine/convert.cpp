@@ -5,15 +5,44 @@
 #include <optional>
 
 #include "chart/convert_curved.hpp"
+#include "engine/canonical/rounded.hpp"
 #include "engine/collector.hpp"
 #include "engine/convert_region.hpp"
+#include "engine/grid_pairs.hpp"
 #include "engine/overlap.hpp"
+#include "engine/pipeline.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
 namespace {
+
+kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, double allowed,
+                          ConversionReport& report, Record& record) {
+  if (options.layers)
+    if (auto mesh = stretch::convert_stretched(region, plane, options, allowed, report, record))
+      return std::move(*mesh);
+  return convert_region(region, plane, options, allowed, report, record);
+}
+
+/// With rounded coordinates; nothing where they are not to be rounded, or where an element would be bad without that.
+std::optional<kernel::Mesh> convert_rounded(const Region& region, const Plane& plane, const Options& options,
+                                            double allowed, ConversionReport& report, Record& record) {
+  const auto rounded = canonical::rounded(region, plane);
+  if (!rounded) return {};
+  try {
+    kernel::Mesh mesh = convert_flat(rounded->region, rounded->plane, options, allowed, report, record);
+    canonical::put_back(mesh, *rounded, region);
+    for (auto& stage : record.stages)
+      if (stage) canonical::put_back(*stage, *rounded, region);
+    if (!find_fault(mesh, region, plane)) return mesh;
+  } catch (const SurfaceError&) {
+  }
+  report = {};
+  record = {};
+  return {};
+}
 
 /// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
 /// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
@@ -26,10 +55,9 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
   std::vector<char> is_stuck(surface.regions.size(), false);
   const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
     try {
-      if (options.layers)
-        if (auto mesh = stretch::convert_stretched(surface.regions[r], surface.plane, own, allowed, report, record))
-          return std::move(*mesh);
-      return convert_region(surface.regions[r], surface.plane, own, allowed, report, record);
+      const Region& region = surface.regions[r];
+      if (auto mesh = convert_rounded(region, surface.plane, own, allowed, report, record)) return std::move(*mesh);
+      return convert_flat(region, surface.plane, own, allowed, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = true;
@@ -72,11 +100,21 @@ void add_layers(const Patch& patch, const layers::Layers& layers, const std::opt
   std::for_each(stages.begin(), stages.end(), mend_sources);
 }
 
+/// Marks the nodes of regions that are grids of cells that are no layers'. Whether there are any.
+bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
+  bool is_any = false;
+  for (const Region& region : surface.regions) {
+    if (!is_unstretched_grid(kernel::Mesh(region.points, region.triangles, region.open))) continue;
+    is_any = true;
+    for (Index v : region.node) nodes[v] = true;
+  }
+  return is_any;
+}
+
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
 /// layers around it are left to the front as well, and at last all of them.
 SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   constexpr int kTries = 2;
-  require_sound(patch);
   if (patch.triangles.empty()) return convert_triangles(patch, {}, options, nullptr);
   const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
@@ -87,6 +125,7 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
       const Surface whole(patch, *plane);
       require_fronts(whole.regions, *plane);
       require_no_overlap(whole.regions, *plane);
+      if (!layers->patch.triangles.empty() && mark_grids(whole, stuck)) continue;
     }
     std::vector<bool> stuck_now(layers->patch.points.size(), false);
     SurfaceWork work = convert_triangles(layers->patch, plane, options, &stuck_now);

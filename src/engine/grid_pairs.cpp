@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "topology/edits.hpp"
@@ -119,6 +120,20 @@ std::optional<Mesh> pair_as_grid(const Mesh& triangles) {
 bool is_good_grid(const Mesh& triangles) {
   const auto cells = pair_as_grid(triangles);
   return cells && topology::smallest_sine(*cells) >= kPoorestCell;
+}
+
+bool is_unstretched_grid(const Mesh& triangles) {
+  constexpr double kStretched = 3;
+  const auto cells = pair_as_grid(triangles);
+  if (!cells || topology::smallest_sine(*cells) < kPoorestCell) return false;
+  for (Index f = 0; f < cells->face_slots(); ++f) {
+    if (!cells->is_live_face(f)) continue;
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (Index h : cells->sides_of(f))
+      shortest = std::min(shortest, cells->length(h)), longest = std::max(longest, cells->length(h));
+    if (longest >= kStretched * shortest) return false;
+  }
+  return true;
 }
 
 }  // namespace qmorph

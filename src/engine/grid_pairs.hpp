@@ -20,4 +20,7 @@ constexpr double kPoorestCell = 0.64;
 /// Whether the triangles are a grid's, with no cell that leans more.
 bool is_good_grid(const kernel::Mesh& triangles);
 
+/// The same, and no cell is stretched: where its triangles are in a row that looks like a layer's, that is by chance.
+bool is_unstretched_grid(const kernel::Mesh& triangles);
+
 }  // namespace qmorph

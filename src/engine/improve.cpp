@@ -12,7 +12,6 @@ namespace qmorph {
 namespace {
 
 SurfaceWork improve_patch(const Patch& patch, const Options& options) {
-  require_sound(patch);
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
   const std::size_t triangles = patch.triangles.size();

@@ -133,9 +133,11 @@ Patch cut_quads(const Patch& patch) {
   const bool folded = std::any_of(patch.quads.begin(), patch.quads.end(), [&](const std::array<Index, 4>& q) {
     return !(std::max(smaller_half(q, 0), smaller_half(q, 1)) > 0);
   });
-  Edges edges = folded ? Edges(patch) : Edges();
+  Edges edges = folded ? Edges(patch) : Edges(), lines;
+  for (const auto& [a, b] : patch.constraints) lines.add(a, b);
   for (const auto& q : patch.quads) {
     int k = smaller_half(q, 1) > smaller_half(q, 0) ? 1 : 0;
+    if (lines.has(q[1 - k], q[3 - k]) && !lines.has(q[k], q[k + 2]) && smaller_half(q, 1 - k) > 0) k = 1 - k;
     if (folded && edges.has(q[k], q[k + 2]) && !edges.has(q[1 - k], q[3 - k])) k = 1 - k;
     if (folded) edges.add(q[k], q[k + 2]);
     result.triangles.push_back({q[k], q[k + 1], q[k + 2]});

@@ -8,7 +8,8 @@
 
 namespace qmorph {
 
-/// The patch with each quad cut into two triangles, along the diagonal that leaves the larger of the two smaller areas.
+/// The patch with each quad cut into two triangles, along the diagonal that is a constraint, else along that which
+/// leaves the larger of the two smaller areas.
 /// The halves come after the triangles that are there, two and two; their common side is the last of the first and the
 /// first of the second.
 Patch cut_quads(const Patch& patch);

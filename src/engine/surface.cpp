@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/allowance.hpp"
+#include "engine/canonical/work.hpp"
 #include "engine/collector.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
@@ -62,7 +63,7 @@ SurfaceError with_node(const SurfaceError& error, const Surface& surface, const 
 }
 
 SurfaceWork work_and_measure(const Patch& patch, const Options& options, const PatchWork& work) {
-  SurfaceWork result = work(patch, options);
+  SurfaceWork result = canonical::work_on_numbered(patch, options, work);
   const QuadMesh& mesh = result.conversion.mesh;
   result.conversion.report.sizes = directed_sizes(patch, mesh.points, mesh.quads);
   if (wants_stages(options)) result.record.size_ratios = size_ratios(patch, mesh);

@@ -32,9 +32,18 @@ void sort_by_place(std::vector<std::uint64_t>& keys) {
   }
 }
 
+/// Those that have one place.
+void sort_within_places(std::vector<std::uint64_t>& keys, const std::function<bool(Index, Index)>& before) {
+  for (auto first = keys.begin(), last = first; first != keys.end(); first = last) {
+    while (last != keys.end() && *last >> 32 == *first >> 32) ++last;
+    if (last - first > 1)
+      std::stable_sort(first, last, [&](std::uint64_t a, std::uint64_t b) { return before(Index(a), Index(b)); });
+  }
+}
+
 }  // namespace
 
-std::vector<Index> along_z_curve(const std::vector<Vec2>& points) {
+std::vector<Index> along_z_curve(const std::vector<Vec2>& points, const std::function<bool(Index, Index)>& before) {
   constexpr double kCells = 65535;  // each way
   if (points.empty()) return {};
   Vec2 low = points[0], high = low;
@@ -48,6 +57,7 @@ std::vector<Index> along_z_curve(const std::vector<Vec2>& points) {
     keys.push_back(place << 32 | i);
   }
   sort_by_place(keys);
+  if (before) sort_within_places(keys, before);
   std::vector<Index> order;
   order.reserve(keys.size());
   for (std::uint64_t key : keys) order.push_back(Index(key));
