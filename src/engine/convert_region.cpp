@@ -279,6 +279,7 @@ class RegionConverter {
     const Worth before = judge(*cells);
     Attempt result{std::move(*cells), options_, allowed_};
     Attempt moved{result.mesh, options_, allowed_};
+    for (Attempt* attempt : {&result, &moved}) note_cells(*attempt);
     Pipeline pipeline(moved.options, moved.report, moved.record, input_, allowed_);
     pipeline.polish(moved.mesh);
     const Worth after = judge(moved.mesh);
@@ -287,6 +288,13 @@ class RegionConverter {
     result.fault = find_fault(result.mesh, region_, plane_);
     if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
     return result;
+  }
+
+  /// Quads that there are without a front take its place among the stages.
+  void note_cells(Attempt& attempt) const {
+    if (!wants_stages(options_)) return;
+    attempt.record.stages[std::size_t(Stage::input)] = input_;
+    attempt.record.stages[std::size_t(Stage::front)] = attempt.mesh;
   }
 
   /// Nothing if the region is not large, or has no valid result in parts.
