@@ -151,14 +151,17 @@ class RegionConverter {
     return paired;
   }
 
-  /// Where the front has gone astray, among triangles that leave it no room, they may be worth more paired as they are.
+  /// Where the front has gone astray, or a small region leaves it no room, triangles may be worth more paired as they
+  /// are.
   void take_pairs(Attempt& best) {
-    constexpr double kPoorMean = 0.6;
+    constexpr double kPoorMean = 0.6, kPoor = 0.3, kAsGood = 0.05;
     const Worth worth = judge(best.mesh);
     const bool is_astray = worth.mean < kPoorMean && worth.growth > 2 * kFairGrowth;
-    if (best.fault || !is_astray) return;
+    const bool has_no_room = is_small_ && worth.least < kPoor;
+    if (best.fault || !(is_astray || has_no_room)) return;
     Attempt paired = pair_triangles();
-    if (!paired.fault && is_better(judge(paired.mesh), worth)) best = std::move(paired);
+    const Worth other = judge(paired.mesh);
+    if (!paired.fault && other.least >= worth.least - kAsGood && other.sum() > worth.sum()) best = std::move(paired);
   }
 
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
@@ -279,6 +282,7 @@ class RegionConverter {
     const Worth before = judge(*cells);
     Attempt result{std::move(*cells), options_, allowed_};
     Attempt moved{result.mesh, options_, allowed_};
+    for (Attempt* attempt : {&result, &moved}) note_cells(*attempt);
     Pipeline pipeline(moved.options, moved.report, moved.record, input_, allowed_);
     pipeline.polish(moved.mesh);
     const Worth after = judge(moved.mesh);
@@ -287,6 +291,13 @@ class RegionConverter {
     result.fault = find_fault(result.mesh, region_, plane_);
     if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
     return result;
+  }
+
+  /// Quads that there are without a front take its place among the stages.
+  void note_cells(Attempt& attempt) const {
+    if (!wants_stages(options_)) return;
+    attempt.record.stages[std::size_t(Stage::input)] = input_;
+    attempt.record.stages[std::size_t(Stage::front)] = attempt.mesh;
   }
 
   /// Nothing if the region is not large, or has no valid result in parts.

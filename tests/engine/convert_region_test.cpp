@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "qmorph/convert.hpp"
 #include "support/domains.hpp"
@@ -59,6 +61,25 @@ QuadMesh convert_with(const Patch& patch, std::size_t retry_triangles) {
   Options options;
   options.retry_triangles = retry_triangles;
   return convert(patch, options).mesh;
+}
+
+/// A ring one triangle wide, with `outer` and `inner` nodes that face each other at one place only.
+Patch thin_ring(Index outer, Index inner) {
+  Patch patch;
+  const auto add = [&](Index nodes, double radius) {
+    for (Index i = 0; i < nodes; ++i) {
+      const double angle = 2 * std::numbers::pi * i / nodes;
+      patch.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  };
+  add(outer, 1.05), add(inner, 0.98);
+  for (Index i = 0, j = 0; i < outer || j < inner;) {
+    const Index a = i % outer, b = outer + j % inner;
+    const bool is_outside = j == inner || (i < outer && (i + 1) * inner <= (j + 1) * outer);
+    const Index next = is_outside ? ++i % outer : outer + ++j % inner;
+    patch.triangles.push_back({a, next, b});
+  }
+  return patch;
 }
 
 bool is_same(const QuadMesh& a, const QuadMesh& b) {
@@ -122,4 +143,17 @@ TEST_CASE("convert region: a good result is not tried again") {
   const QuadMesh mesh = convert_with(patch, 100000);
   CHECK(is_same(mesh, convert_with(patch, 0)));
   CHECK(worth_of(patch, mesh).sum == doctest::Approx(2.43));
+}
+
+TEST_CASE("convert region: where there is no room for a front, triangles are paired as they are") {
+  for (const Index nodes : {16, 20}) {
+    CAPTURE(nodes);
+    const Patch patch = thin_ring(nodes + 1, nodes);
+    const QuadMesh mesh = convert(patch).mesh;
+    const auto broken = broken_invariants(patch, mesh);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    CHECK(mesh.triangles.size() == 1);
+    CHECK(mesh.quads.size() == nodes);
+    CHECK(worth_of(patch, mesh).least > 0.12);
+  }
 }

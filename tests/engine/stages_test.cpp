@@ -8,6 +8,7 @@
 #include "qmorph/convert.hpp"
 #include "qmorph/quality.hpp"
 #include "support/domains.hpp"
+#include "support/halves.hpp"
 #include "support/watcher.hpp"
 
 namespace {
@@ -44,6 +45,33 @@ TEST_CASE("stages: the first is the input and the last is the result") {
     CHECK(std::all_of(watcher.stages.back().size_ratios.begin(), watcher.stages.back().size_ratios.end(),
                       [](double ratio) { return ratio > 0; }));
   }
+}
+
+TEST_CASE("stages: of a grid, which no front goes through, the triangles come first and then the cells") {
+  constexpr Index kCells = 8;
+  for (const bool is_bent : {false, true})
+    for (const double lean : {0.0, 0.5}) {
+      CAPTURE(is_bent);
+      CAPTURE(lean);
+      Patch patch;
+      for (Index j = 0; j <= kCells; ++j)
+        for (Index i = 0; i <= kCells; ++i) {
+          const double x = i + lean * j, y = j;
+          patch.points.emplace_back(x, y, is_bent ? 0.02 * x * x : 0.0);
+        }
+      for (Index j = 0; j < kCells; ++j)
+        for (Index i = 0; i < kCells; ++i) {
+          const Index v = j * (kCells + 1) + i;
+          test::add_halves(patch, {v, v + 1, v + kCells + 2, v + kCells + 1}, (i + j) % 2 == 0);
+        }
+      Watcher watcher;
+      const QuadMesh mesh = convert_watched(patch, watcher).mesh;
+      CHECK(mesh.quads.size() == kCells * kCells);
+      REQUIRE(watcher.stages.size() == kStages);
+      CHECK(watcher.stages.front().mesh.triangles.size() == patch.triangles.size());
+      for (std::size_t i = 1; i < kStages; ++i) CHECK(watcher.stages[i].mesh.quads.size() == kCells * kCells);
+      CHECK(is_same(watcher.stages.back().mesh, mesh));
+    }
 }
 
 TEST_CASE("stages: watching changes no result") {

@@ -125,6 +125,19 @@ TEST_CASE("geometry: a script that has meshed itself is not meshed again") {
   CHECK(mentions(read_file(directory / "stats.json"), "\"mesh\": 0.0"));
 }
 
+TEST_CASE("geometry: a script that has partitioned its mesh keeps mesh and partitions") {
+  for (const std::string topology : {"1", "0"}) {
+    CAPTURE(topology);
+    const TemporaryDirectory directory;
+    write_file(directory / "in.geo", std::string(kRectangle) + "Mesh.MeshSizeMax = 0.1;\nMesh 2;\n" +
+                                         "Mesh.PartitionCreateTopology = " + topology + ";\nPartitionMesh 3;\n");
+    const Result result = run_qmorph({directory / "in.geo", "-o", directory / "out.msh"});
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    CHECK(mentions(read_file(directory / "out.msh"), "$PartitionedEntities"));
+  }
+}
+
 TEST_CASE("geometry: STEP and BREP") {
   const TemporaryDirectory directory;
   {

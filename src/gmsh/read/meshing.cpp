@@ -29,6 +29,17 @@ constexpr double kSimplePairing = 0;
 
 bool is_discrete(int dim, int tag) { return entity_type(dim, tag).find("Discrete") != std::string::npos; }
 
+/// Surfaces whose elements a script has handed to the parts of a partition: PartitionMesh makes a surface of each.
+std::set<int> find_partitioned(const ::gmsh::vectorpair& surfaces) {
+  std::set<int> partitioned;
+  for (const auto& [dim, tag] : surfaces) {
+    int parent_dim = -1, parent = -1;
+    ::gmsh::model::getParent(dim, tag, parent_dim, parent);
+    if (parent_dim == 2 && has_elements(2, tag)) partitioned.insert(parent);
+  }
+  return partitioned;
+}
+
 /// A discrete surface that CreateGeometry has given parameters has a range of them.
 bool has_parameters(int surface) {
   std::vector<double> low, high;
@@ -284,13 +295,14 @@ MeshingTask find_meshing_task(bool taken_as_it_is) {
   MeshingTask task;
   ::gmsh::vectorpair surfaces;
   ::gmsh::model::getEntities(surfaces, 2);
+  const std::set<int> partitioned = find_partitioned(surfaces);
   for (const auto& [dim, tag] : surfaces) {
     const bool meshed = has_elements(2, tag), discrete = is_discrete(2, tag);
     if (discrete && meshed && !taken_as_it_is && has_parameters(tag))
       task.facets.push_back(tag);
     else if (meshed)
       task.kept.push_back(tag), task.kept_on_geometry |= !discrete;
-    else if (!discrete)
+    else if (!discrete && partitioned.count(tag) == 0)
       task.bare.push_back(tag);
   }
   return task;
