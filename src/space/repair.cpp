@@ -14,20 +14,28 @@ namespace {
 using Eigen::Vector3d;
 
 /// Smallest sine around a node, or less where edges at a corner differ in length by more than about twenty times: the
-/// sine alone would let a node fall onto its neighbour.
-double guarded_sine_around(const MeshOnSurface& mesh, Index v, bool exact) {
+/// sine alone would let a node fall onto its neighbour. What is not above `least_wanted` need not be exact: the
+/// surface's normals are looked up only as long as the sine may still be above it.
+double guarded_sine_around(const MeshOnSurface& mesh, Index v, bool exact, double least_wanted) {
   constexpr double kLengthGuard = 20;
-  double least = exact ? mesh.exact_sine_around(v) : mesh.smallest_sine_around(v);
+  double least = 1, most = 1;  // whatever the normals are, it is at most the second one
   mesh.for_sides_around(v, [&](Index first) {
+    if (!(most > least_wanted)) return;
     Index side = first;
     do {
       const Vector3d& at = mesh.point(mesh.node(side));
       const Vector3d a = mesh.point(mesh.node(mesh.next(side))) - at;
       const Vector3d b = mesh.point(mesh.node(mesh.previous(side))) - at;
-      const double squares = a.squaredNorm() + b.squaredNorm();
-      least = std::min(least, squares > 0 ? kLengthGuard * a.cross(b).norm() / squares : -1);
+      const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), area = a.cross(b).norm();
+      least = std::min(least, a2 + b2 > 0 ? kLengthGuard * area / (a2 + b2) : -1);
+      most = std::min({most, least, a2 * b2 > 0 ? area / std::sqrt(a2 * b2) : least});
       side = mesh.next(side);
     } while (side != first);
+  });
+  if (!(most > least_wanted)) return most;
+  mesh.for_sides_around(v, [&](Index side) {
+    if (!(least > least_wanted)) return;
+    least = std::min(least, exact ? mesh.exact_sine(side / 4) : mesh.smallest_sine(side / 4));
   });
   return least;
 }
@@ -52,7 +60,7 @@ class Compass {
     if (!mesh_.is_free(v) || mesh_.normal(v).isZero()) return false;
     const MeshOnSurface::Place start = mesh_.place(v);
     MeshOnSurface::Place best = start;
-    double best_sine = guarded_sine_around(mesh_, v, exact), step = kFirstStep * shortest_edge(v);
+    double best_sine = guarded_sine_around(mesh_, v, exact, -1), step = kFirstStep * shortest_edge(v);
     bool moved = false;
     for (int shrinking = 0, round = 0; shrinking < kShrinkings && round < kMostRounds && has_looks(); ++round) {
       const auto [u, w] = tangents(best.normal);
@@ -61,7 +69,7 @@ class Compass {
       for (const auto& d : kCompass) {
         mesh_.move(v, centre);
         mesh_.move(v, mesh_.foot(v, centre.point + step * (d[0] * u + d[1] * w)));
-        const double sine = guarded_sine_around(mesh_, v, exact);
+        const double sine = guarded_sine_around(mesh_, v, exact, best_sine);
         if (looks_ > 0) --looks_;
         if (sine > best_sine + kLeastGain) best = mesh_.place(v), best_sine = sine, better = true;
       }
