@@ -5,19 +5,17 @@
 #include <numeric>
 #include <tuple>
 
-#include "geometry/z_curve.hpp"
 #include "qmorph/error.hpp"
 
 namespace qmorph {
 namespace {
 
-/// The triangles along a Z-curve, with nodes that are numbered as they come: then what lies close together does so in
-/// memory, however the mesher has numbered it. Side c runs from the node of corner c to that of the next corner.
+/// The triangles, with nodes that are numbered as they come. Side c runs from the node of corner c to that of the next corner.
 /// Corners of triangle k are 3 k, 3 k + 1, 3 k + 2.
 class Sides {
  public:
-  Sides(const Patch& patch, const std::vector<Index>& order, EdgesOfMany many) : opposite_(3 * order.size(), kNone) {
-    take_nodes(patch, order);
+  Sides(const Patch& patch, EdgesOfMany many) : opposite_(3 * patch.triangles.size(), kNone) {
+    take_nodes(patch);
     first_.assign(row_.size(), kNone);
     edges_.reserve(node_.size() / 2 + node_.size() / 16);
     const std::vector<Index> torn = many == EdgesOfMany::part ? sides_of_many(patch) : std::vector<Index>();
@@ -56,11 +54,11 @@ class Sides {
   }
 
  private:
-  void take_nodes(const Patch& patch, const std::vector<Index>& order) {
+  void take_nodes(const Patch& patch) {
     number_.assign(patch.points.size(), kNone);
-    node_.reserve(3 * order.size());
+    node_.reserve(3 * patch.triangles.size());
     row_.reserve(patch.points.size());
-    for (Index t : order) node_.insert(node_.end(), patch.triangles[t].begin(), patch.triangles[t].end());
+    for (const auto& t : patch.triangles) node_.insert(node_.end(), t.begin(), t.end());
     for (Index& v : node_) {
       if (number_[v] == kNone) number_[v] = nodes(), row_.push_back(v), corners_.push_back(0);
       v = number_[v];
@@ -188,23 +186,13 @@ std::vector<Index> number_regions(const Sides& sides, Index triangles, std::vect
   return region;
 }
 
-/// With a million triangles in random order this halves the time of a conversion.
-std::vector<Index> spatial_order(const Patch& patch, const std::vector<Vec2>& plane_points) {
-  std::vector<Vec2> middles;
-  middles.reserve(patch.triangles.size());
-  for (const auto& t : patch.triangles)
-    middles.push_back((plane_points[t[0]] + plane_points[t[1]] + plane_points[t[2]]) / 3);
-  return along_z_curve(middles);
-}
-
 }  // namespace
 
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points, EdgesOfMany many) {
-  const std::vector<Index> order = spatial_order(patch, plane_points);
-  Sides sides(patch, order, many);
+  Sides sides(patch, many);
   sides.separate_fans();
   std::vector<std::size_t> sizes;
-  const std::vector<Index> region_of = number_regions(sides, Index(order.size()), sizes);
+  const std::vector<Index> region_of = number_regions(sides, Index(patch.triangles.size()), sizes);
 
   std::vector<bool> must_stay(patch.points.size(), false);
   for (Index v : patch.fixed) must_stay[v] = true;
@@ -217,7 +205,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
     regions[r].open.assign(3 * sizes[r], false);
   }
   std::vector<Index> vertex_of(sides.nodes(), kNone);
-  for (Index k = 0; k < order.size(); ++k) {
+  for (Index k = 0; k < patch.triangles.size(); ++k) {
     Region& region = regions[region_of[k]];
     std::array<Index, 3> corners{};
     for (Index i = 0; i < 3; ++i) {
@@ -233,7 +221,7 @@ std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>
       if (sides.opposite(c) == kNone) region.open[3 * region.triangles.size() + i] = true, ++region.boundary_sides;
     }
     region.triangles.push_back(corners);
-    region.row.push_back(order[k]);
+    region.row.push_back(k);
   }
   for (Region& region : regions) {
     region.points.reserve(region.node.size());

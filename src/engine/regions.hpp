@@ -50,7 +50,8 @@ struct Region {
 /// parted there.
 enum class EdgesOfMany { refuse, part };
 
-/// The regions' triangles follow one another along a Z-curve.
+/// The regions' triangles are in the patch's order, their vertices as these come upon them: what lies close together
+/// does so in memory if it did in the patch (canonical/numbered.hpp).
 /// Throws SurfaceError if an edge has two triangles on one side (overlap, inconsistent orientation).
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points,
                                      EdgesOfMany many = EdgesOfMany::refuse);

@@ -44,14 +44,11 @@ void for_each_element(const Patch& patch, const Visit& visit) {
   for (const auto& q : patch.quads) visit(q);
 }
 
-/// Of what the elements use.
 struct Box {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
 
   explicit Box(const Patch& patch) {
-    for_each_element(patch, [&](const auto& element) {
-      for (Index v : element) low = low.cwiseMin(patch.points[v]), high = high.cwiseMax(patch.points[v]);
-    });
+    for (const Vector3d& p : patch.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   }
   Vector3d centre() const { return 0.5 * low + 0.5 * high; }
   Vector3d sizes() const { return high - low; }

@@ -30,15 +30,21 @@ bool is_before(const std::array<Index, N>& one, const std::array<Index, N>& othe
   return false;
 }
 
-/// The element from its lowest corner on.
+/// The element from its lowest corner on; if two corners are at the same place, from that which makes it lowest.
 template <std::size_t N>
 std::array<Index, N> from_lowest(const std::array<Index, N>& element, const std::vector<Vector3d>& points) {
-  std::array<Index, N> lowest = element, turned = element;
+  const auto starting_at = [&](std::size_t start) {
+    std::array<Index, N> turned{};
+    for (std::size_t i = 0; i < N; ++i) turned[i] = element[(start + i) % N];
+    return turned;
+  };
+  std::size_t lowest = 0;
   for (std::size_t i = 1; i < N; ++i) {
-    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
-    if (is_before(turned, lowest, points)) lowest = turned;
+    const Vector3d &here = points[element[i]], &there = points[element[lowest]];
+    if (here.x() != there.x() ? here.x() < there.x() : is_before(starting_at(i), starting_at(lowest), points))
+      lowest = i;
   }
-  return lowest;
+  return starting_at(lowest);
 }
 
 /// From their lowest corners on, along a Z-curve through their middles. `rows` gets those that they had.
@@ -93,9 +99,9 @@ class NodeNumbers {
 };
 
 bool can_be_computed_with(const Patch& patch) {
-  constexpr double kLargest = 1e75;  // fourth powers of lengths overflow beyond it
+  const double kLargest = 1e75;  // fourth powers of lengths overflow beyond it
   return std::all_of(patch.points.begin(), patch.points.end(),
-                     [](const Vector3d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargest; });
+                     [&](const Vector3d& p) { return (p.array().abs() <= kLargest).all(); });
 }
 
 /// The caller's corners of the quads that stay, if the mesh begins with them as they are in `from`.

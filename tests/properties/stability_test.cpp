@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The same surface becomes the same quads, wherever it lies and however it is numbered.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "qmorph/convert.hpp"
+#include "qmorph/quality.hpp"
+#include "support/domains.hpp"
+#include "support/invariants.hpp"
+#include "support/layered.hpp"
+#include "support/nasty.hpp"
+#include "support/seeds.hpp"
+#include "support/surfaces.hpp"
+
+namespace {
+
+using namespace qmorph;
+using namespace qmorph::test;
+
+/// One of the 48 ways to exchange and turn the axes.
+Eigen::Matrix3d symmetry(std::size_t number) {
+  std::array<int, 3> axis{0, 1, 2};
+  for (std::size_t i = number / 8; i > 0; --i) std::next_permutation(axis.begin(), axis.end());
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) matrix(i, axis[std::size_t(i)]) = number >> i & 1 ? -1 : 1;
+  return matrix;
+}
+
+/// Elements as sets of places, so that numbers and directions are out of the way.
+using Place = std::array<double, 3>;
+using Element = std::vector<Place>;
+using Elements = std::vector<Element>;
+
+Place placed(const Eigen::Matrix3d& turn, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d p = turn * point;
+  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};  // -0 is 0
+}
+
+template <class Corners>
+void add(Elements& elements, const std::vector<Eigen::Vector3d>& points, const std::vector<Corners>& rows,
+         const Eigen::Matrix3d& turn) {
+  for (const Corners& row : rows) {
+    Element element;
+    for (Index v : row) element.push_back(placed(turn, points[v]));
+    std::sort(element.begin(), element.end());
+    elements.push_back(element);
+  }
+}
+
+template <class Surface>
+Elements elements_of(const Surface& surface, const Eigen::Matrix3d& turn = Eigen::Matrix3d::Identity()) {
+  Elements elements;
+  add(elements, surface.points, surface.triangles, turn);
+  add(elements, surface.points, surface.quads, turn);
+  std::sort(elements.begin(), elements.end());
+  return elements;
+}
+
+/// Whether one of the 48 ways lays the patch upon itself: then its result and the result's image are equally good.
+bool is_symmetric(Patch patch) {
+  std::size_t trivial = 1;
+  for (int i = 0; i < 3; ++i) {  // where a flat one lies across does not matter
+    if (!std::all_of(patch.points.begin(), patch.points.end(),
+                     [&](const Eigen::Vector3d& p) { return p[i] == patch.points[0][i]; }))
+      continue;
+    for (auto& p : patch.points) p[i] = 0;
+    trivial *= 2;
+  }
+  const Elements as_it_is = elements_of(patch);
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < 48; ++i) same += elements_of(patch, symmetry(i)) == as_it_is;
+  return same > trivial;
+}
+
+/// What a function makes of a patch as places, turned back; empty if it refuses.
+template <class Work>
+Elements made(const Work& work, const Patch& patch, const Eigen::Matrix3d& turn) {
+  try {
+    return elements_of(work(patch), turn.transpose());
+  } catch (const SurfaceError&) {
+    return {};
+  }
+}
+
+/// Checks that the patch becomes the same in other frames and with other numbers.
+template <class Work>
+void check_stable(const Patch& patch, std::uint64_t seed, const Work& work) {
+  constexpr int kVariants = 3;
+  Rng rng(seed + 77);
+  const Elements as_it_is = made(work, patch, Eigen::Matrix3d::Identity());
+  for (int i = 0; i < kVariants; ++i) {
+    const std::size_t number = rng.below(48);
+    const Eigen::Matrix3d turn = symmetry(number);
+    Patch variant = moved(patch, 1, turn, Eigen::Vector3d::Zero());
+    if (rng.chance(0.5)) variant = turned_over(variant);
+    if (i != 0) variant = renumbered(variant, rng);
+    const bool is_same = made(work, variant, turn) == as_it_is || is_symmetric(patch);
+    CAPTURE(seed);
+    CAPTURE(number);
+    CAPTURE(i);
+    CHECK(is_same);
+  }
+}
+
+/// Tries with other constants take most of the time; some domains are enough for them.
+Options options_for(std::uint64_t seed) {
+  Options options;
+  if (seed % 10 != 0) options.retry_triangles = 0;
+  return options;
+}
+
+/// Converts with options, and checks the result.
+auto converted(const Options& options) {
+  return [=](const Patch& patch) {
+    QuadMesh mesh = convert(patch, options).mesh;
+    const auto broken = broken_invariants(patch, mesh);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    return mesh;
+  };
+}
+
+/// A patch of which a corner is at a whole number, and all coordinates are so short that whole numbers can be added.
+Patch with_short_coordinates(Patch patch) {
+  constexpr double kUnit = 0x1p-24;
+  Eigen::Vector3d low = patch.points[0], high = low;
+  for (const auto& p : patch.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double scale = 1 / (high - low).maxCoeff();
+  for (auto& p : patch.points)
+    for (int i = 0; i < 3; ++i) p[i] = std::round((p[i] - low[i]) * scale / kUnit) * kUnit;
+  return patch;
+}
+
+struct Pool {
+  double quads = 0, jacobians = 0, interior = 0, irregular = 0;
+
+  void add(const QuadMesh& mesh) {
+    const Quality quality = measure(mesh);
+    quads += double(quality.quads);
+    jacobians += double(quality.quads) * quality.scaled_jacobian_mean;
+    interior += double(quality.interior_nodes);
+    irregular += double(quality.irregular_nodes);
+  }
+};
+
+void check_alike(const Pool& one, const Pool& other, double irregular_share) {
+  constexpr double kHundredth = 0.01;
+  const auto close = [](double value, double share) { return doctest::Approx(value).epsilon(share); };
+  CHECK(other.quads == close(one.quads, kHundredth));
+  CHECK(other.jacobians / other.quads == close(one.jacobians / one.quads, kHundredth));
+  CHECK(other.irregular / other.interior == close(one.irregular / one.interior, irregular_share));
+}
+
+}  // namespace
+
+TEST_CASE("random domains: turned by right angles, mirrored, turned over or renumbered, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(200); ++seed)
+    check_stable(random_domain(seed).patch, seed, converted(options_for(seed)));
+}
+
+TEST_CASE("nasty domains: turned by right angles, mirrored, turned over or renumbered, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(100); ++seed)
+    check_stable(nasty_domain(seed).patch, seed, converted(options_for(seed)));
+}
+
+TEST_CASE(
+    "domains with layers: turned by right angles, mirrored, turned over or renumbered, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(100); ++seed)
+    check_stable(layered_domain(seed).patch, seed, converted(options_for(seed)));
+}
+
+TEST_CASE("random domains in parts: turned by right angles, mirrored or renumbered, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(100); ++seed) {
+    Options options = options_for(seed);
+    options.part_triangles = 30 + seed % 200;
+    check_stable(random_domain(seed).patch, seed, converted(options));
+  }
+}
+
+TEST_CASE("curved surfaces: turned by right angles, mirrored, turned over or renumbered, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(40); ++seed)
+    check_stable(random_surface(seed).patch, seed, converted(options_for(seed)));
+}
+
+TEST_CASE("random domains: improved, turned by right angles, mirrored or renumbered, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(100); ++seed) {
+    Patch patch = random_domain(seed).patch;
+    try {
+      const QuadMesh mesh = convert(patch, options_for(seed)).mesh;
+      patch = {mesh.points, mesh.triangles, mesh.quads, {}, {}};
+    } catch (const SurfaceError&) {
+      continue;
+    }
+    check_stable(patch, seed, [](const Patch& mixed) { return improve(mixed).mesh; });
+  }
+}
+
+TEST_CASE("random domains: moved by what no coordinate is rounded for, they become the same quads") {
+  for (std::uint64_t seed = 0; seed < seeds(150); ++seed) {
+    const Patch patch = with_short_coordinates(random_domain(seed).patch);
+    if (!broken_inputs(patch).empty()) continue;
+    const Patch there = moved(patch, 1, Eigen::Matrix3d::Identity(), {5, -3, 2});
+    CAPTURE(seed);
+    try {
+      const auto work = converted(options_for(seed));
+      CHECK(work(patch).quads == work(there).quads);
+    } catch (const SurfaceError&) {
+    }
+  }
+}
+
+TEST_CASE("random domains: moved and turned anyhow, pooled figures stay within a hundredth") {
+  Pool as_they_are, shifted, turned;
+  for (std::uint64_t seed = 0; seed < seeds(400, 200); ++seed) {
+    const Patch patch = random_domain(seed).patch;
+    Rng rng(~seed);
+    const double size = (patch.points.back() - patch.points.front()).norm();
+    const Eigen::Vector3d shift = size * Eigen::Vector3d(rng.between(-3, 3), rng.between(-3, 3), rng.between(-3, 3));
+    as_they_are.add(convert(patch, options_for(seed)).mesh);
+    shifted.add(convert(moved(patch, 1, Eigen::Matrix3d::Identity(), shift), options_for(seed)).mesh);
+    turned.add(convert(moved(patch, 1, random_rotation(rng), Eigen::Vector3d::Zero()), options_for(seed)).mesh);
+  }
+  // Turned by any angle, triangles are cut otherwise by the front. Of some thousand irregular nodes 2 % are chance.
+  constexpr double kHundredth = 0.01, kByChance = 0.03;
+  check_alike(as_they_are, shifted, kHundredth);
+  check_alike(as_they_are, turned, kByChance);
+}
