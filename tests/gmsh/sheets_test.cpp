@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "gmsh/session/compat.hpp"
 #include "gmsh/support.hpp"
 
 using namespace qmorph::test;
@@ -63,5 +64,27 @@ TEST_CASE("sheets: three that meet at a line become quads, and the line stays") 
     }
     CHECK(triangles == 0);
     CHECK(quads == 108);
+  }
+}
+
+TEST_CASE("sheets: two between the same curves may have the same triangle at a corner") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    namespace occ = ::gmsh::model::occ;
+    const int a = occ::addPoint(0, 0, 0), b = occ::addPoint(2, 0.4, 0), c = occ::addPoint(2, -0.4, 0);
+    const int wire = occ::addWire({occ::addLine(a, b), occ::addLine(b, c), occ::addLine(c, a)}, -1, true);
+    for (const double z : {-0.2, 0.2}) occ::addSurfaceFilling(wire, -1, {occ::addPoint(1.5, 0, z)});
+    occ::synchronize();
+    ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.25);
+    ::gmsh::model::mesh::generate(2);
+  });
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  for (const int surface : {1, 2}) {
+    const auto [triangles, quads] = element_counts(after, surface);
+    CHECK(triangles == 0);  // 52 triangles each: an even boundary
+    CHECK(quads > 10);
   }
 }

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "gmsh/model/high_order.hpp"
@@ -20,8 +19,6 @@ namespace {
 
 /// Below this even the square of an area does not overflow.
 constexpr double kLargestCoordinate = 1e75;
-
-std::uint64_t edge_key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 /// The elements of one surface with their corners as rows of the model's nodes.
 struct Elements {
@@ -281,72 +278,6 @@ void set_constraints(const ModelMesh& mesh, const NodeUse& use, const FixedEdges
 }
 
 }  // namespace
-
-FixedEdges::FixedEdges(const ModelMesh& mesh, const NodeUse& use) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> shared;
-  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
-    const EntityMesh& entity = mesh.entities[e];
-    if (entity.dim != 1 && entity.dim != 2) continue;
-    for (const ElementBlock& block : entity.blocks) {
-      const std::size_t corners = block.corners;
-      for (std::size_t i = 0; i + block.nodes_per_element <= block.nodes.size(); i += block.nodes_per_element)
-        for (std::size_t k = 0; k < (entity.dim == 1 ? 1 : corners); ++k) {
-          const Index a = mesh.rows.find(block.nodes[i + k]);
-          const Index b = mesh.rows.find(block.nodes[i + (k + 1) % corners]);
-          if (a == kNone || b == kNone) continue;
-          if (entity.dim == 1)
-            keys_.push_back(edge_key(a, b));
-          else if (use.several[a] && use.several[b])
-            shared.emplace_back(edge_key(a, b), e);
-        }
-    }
-  }
-  std::sort(shared.begin(), shared.end());
-  for (std::size_t i = 1; i < shared.size(); ++i)
-    if (shared[i].first == shared[i - 1].first && shared[i].second != shared[i - 1].second)
-      keys_.push_back(shared[i].first);
-  sort_unique(keys_);
-  touched_.assign(mesh.tags.size(), false);
-  for (std::uint64_t key : keys_) touched_[key >> 32] = touched_[key & 0xffffffff] = true;
-}
-
-std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use) {
-  struct Corners {
-    std::array<Index, 4> rows;  // sorted; a triangle has kNone for the fourth
-    std::uint32_t entity;
-    bool operator<(const Corners& other) const { return std::tie(rows, entity) < std::tie(other.rows, other.entity); }
-  };
-  std::vector<Corners> shared;
-  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
-    if (mesh.entities[e].dim != 2) continue;
-    for (const ElementBlock& block : mesh.entities[e].blocks) {
-      if (block.corners != 3 && block.corners != 4) continue;
-      for (std::size_t i = 0; i < block.nodes.size(); i += block.nodes_per_element) {
-        Corners corners{{kNone, kNone, kNone, kNone}, e};
-        bool common = true;
-        for (std::size_t k = 0; k < block.corners; ++k) {
-          corners.rows[k] = mesh.rows.find(block.nodes[i + k]);
-          common = common && corners.rows[k] != kNone && use.several[corners.rows[k]];
-        }
-        std::sort(corners.rows.begin(), corners.rows.end());
-        if (common) shared.push_back(corners);
-      }
-    }
-  }
-  std::sort(shared.begin(), shared.end());
-  std::map<std::uint32_t, CommonElement> found;
-  for (std::size_t i = 1; i < shared.size(); ++i) {
-    const Corners &a = shared[i - 1], &b = shared[i];
-    if (a.rows != b.rows || a.entity == b.entity) continue;
-    found.try_emplace(a.entity, CommonElement{b.entity, a.rows[0]});
-    found.try_emplace(b.entity, CommonElement{a.entity, a.rows[0]});
-  }
-  return found;
-}
-
-bool FixedEdges::contains(Index row_a, Index row_b) const {
-  return touched_[row_a] && touched_[row_b] && std::binary_search(keys_.begin(), keys_.end(), edge_key(row_a, row_b));
-}
 
 SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
                          std::vector<Index>& local) {

@@ -3,11 +3,11 @@
 /// From the mesh of a model to what the engine takes.
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "gmsh/model/model_mesh.hpp"
+#include "gmsh/model/shared.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph::adapter {
@@ -28,27 +28,6 @@ struct SurfaceMesh {
   std::string edge_of_many;   ///< where more than two elements meet at an edge, or empty
   bool quads_may_go = false;  ///< the quads of the input are not kept: what they are made into takes their tags
 };
-
-/// Edges of the mesh that nothing may remove: those with a line element on them, and those that several surfaces
-/// share. MSH files know nothing of embedded curves, so that the elements have to say it.
-class FixedEdges {
- public:
-  FixedEdges(const ModelMesh& mesh, const NodeUse& use);
-  bool contains(Index row_a, Index row_b) const;
-
- private:
-  std::vector<std::uint64_t> keys_;  ///< sorted
-  std::vector<bool> touched_;        ///< rows that such an edge ends at: most edges of a mesh need no search
-};
-
-/// An element that another surface has as well.
-struct CommonElement {
-  std::uint32_t other = 0;  ///< index into ModelMesh::entities
-  Index row = kNone;        ///< one of its nodes
-};
-
-/// Surfaces that have an element in common with another: neither could be changed and still fit the other.
-std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use);
 
 /// Reads one surface: parts, constraints, fixed nodes. Triangles that are oriented against the others
 /// of their part are turned, with a warning.
