@@ -2,10 +2,7 @@
 // The same surface becomes the same quads, wherever it lies and however it is numbered.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "qmorph/convert.hpp"
 #include "qmorph/quality.hpp"
@@ -15,66 +12,12 @@
 #include "support/nasty.hpp"
 #include "support/seeds.hpp"
 #include "support/surfaces.hpp"
+#include "support/symmetries.hpp"
 
 namespace {
 
 using namespace qmorph;
 using namespace qmorph::test;
-
-/// One of the 48 ways to exchange and turn the axes.
-Eigen::Matrix3d symmetry(std::size_t number) {
-  std::array<int, 3> axis{0, 1, 2};
-  for (std::size_t i = number / 8; i > 0; --i) std::next_permutation(axis.begin(), axis.end());
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < 3; ++i) matrix(i, axis[std::size_t(i)]) = number >> i & 1 ? -1 : 1;
-  return matrix;
-}
-
-/// Elements as sets of places, so that numbers and directions are out of the way.
-using Place = std::array<double, 3>;
-using Element = std::vector<Place>;
-using Elements = std::vector<Element>;
-
-Place placed(const Eigen::Matrix3d& turn, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d p = turn * point;
-  return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};  // -0 is 0
-}
-
-template <class Corners>
-void add(Elements& elements, const std::vector<Eigen::Vector3d>& points, const std::vector<Corners>& rows,
-         const Eigen::Matrix3d& turn) {
-  for (const Corners& row : rows) {
-    Element element;
-    for (Index v : row) element.push_back(placed(turn, points[v]));
-    std::sort(element.begin(), element.end());
-    elements.push_back(element);
-  }
-}
-
-template <class Surface>
-Elements elements_of(const Surface& surface, const Eigen::Matrix3d& turn = Eigen::Matrix3d::Identity()) {
-  Elements elements;
-  add(elements, surface.points, surface.triangles, turn);
-  add(elements, surface.points, surface.quads, turn);
-  std::sort(elements.begin(), elements.end());
-  return elements;
-}
-
-/// Whether one of the 48 ways lays the patch upon itself: then its result and the result's image are equally good.
-bool is_symmetric(Patch patch) {
-  std::size_t trivial = 1;
-  for (int i = 0; i < 3; ++i) {  // where a flat one lies across does not matter
-    if (!std::all_of(patch.points.begin(), patch.points.end(),
-                     [&](const Eigen::Vector3d& p) { return p[i] == patch.points[0][i]; }))
-      continue;
-    for (auto& p : patch.points) p[i] = 0;
-    trivial *= 2;
-  }
-  const Elements as_it_is = elements_of(patch);
-  std::size_t same = 0;
-  for (std::size_t i = 0; i < 48; ++i) same += elements_of(patch, symmetry(i)) == as_it_is;
-  return same > trivial;
-}
 
 /// What a function makes of a patch as places, turned back; empty if it refuses.
 template <class Work>

@@ -172,6 +172,8 @@ std::uint64_t fingerprint(const Patch& patch, const Frame& frame, double size) {
     for (Index v : element) sum += nodes[v];
     all += mixed(sum);
   });
+  for (const auto& [a, b] : patch.constraints) all += mixed(mixed(nodes[a] + nodes[b]));
+  for (Index v : patch.fixed) all += mixed(mixed(nodes[v]));
   return all;
 }
 
