@@ -198,7 +198,8 @@ TEST_CASE("curved elements: where a given side turns past the one beside it, tha
       CAPTURE(order);
       CAPTURE(turned);
       // The given side leaves the corner (0, 0) at 135 degrees, where the side beside it leads at 132.
-      adapter::CurvedElements elements({{0, 0, 0}, {0, 1, 0}, {-1, 1.6, 0}, {-1, 1.1, 0}, {-1.2, -0.6, 0}, {0.2, -0.8, 0}});
+      adapter::CurvedElements elements(
+          {{0, 0, 0}, {0, 1, 0}, {-1, 1.6, 0}, {-1, 1.1, 0}, {-1.2, -0.6, 0}, {0.2, -0.8, 0}});
       for (const std::size_t corners : {3, 4})
         elements.set_type(adapter::element_type(adapter::type_number(corners, order, false)));
       if (turned) elements.add_side(3, 0), elements.add_side(1, 0);
