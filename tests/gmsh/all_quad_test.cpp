@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -305,6 +307,34 @@ TEST_CASE("make_even: in a running session, and what makes no sense is refused w
   CHECK(even.splits.size() == 1);
   CHECK(session::make_even().odd_regions == 0);
   CHECK(session::recombine().total.triangles == 0);
+}
+
+TEST_CASE("make_even: a new node on a curve that arches turns no triangle over") {
+  const RunningGmsh gmsh;
+  namespace geo = ::gmsh::model::geo;
+  // The arc rises to 0.08 over its chord; the triangle beside it has its third corner at 0.01.
+  const int a = geo::addPoint(0, 0, 0), b = geo::addPoint(1, 0, 0), c = geo::addPoint(0.98, 0.01, 0);
+  const int arc = geo::addCircleArc(a, geo::addPoint(0.5, -1.5225, 0), b);
+  const std::vector<int> others{geo::addLine(b, c), geo::addSpline({c, geo::addPoint(0.5, 0.3, 0), a})};
+  geo::addPlaneSurface({geo::addCurveLoop({arc, others[0], others[1]})}, 1);
+  geo::synchronize();
+  for (const int curve : {arc, others[0], others[1]}) ::gmsh::model::mesh::setTransfiniteCurve(curve, 2);
+  ::gmsh::model::mesh::generate(2);
+  CHECK(session::make_even({}, others).splits.size() == 1);
+  std::vector<std::size_t> tags, nodes;
+  ::gmsh::model::mesh::getElementsByType(2, tags, nodes);
+  REQUIRE(tags.size() == 2);
+  std::vector<double> areas;
+  for (std::size_t i = 0; i < nodes.size(); i += 3) {
+    std::array<Eigen::Vector3d, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<double> xyz, parameters;
+      ::gmsh::model::mesh::getNode(nodes[i + k], xyz, parameters);
+      p[k] = {xyz[0], xyz[1], xyz[2]};
+    }
+    areas.push_back((p[1] - p[0]).cross(p[2] - p[0]).z());
+  }
+  CHECK(areas[0] * areas[1] > 0);
 }
 
 TEST_CASE("--all-quad: messages that go with it") {

@@ -191,6 +191,31 @@ TEST_CASE("curved elements: where a given side folds an element, the side opposi
     }
 }
 
+TEST_CASE("curved elements: where a given side turns past the one beside it, that turns with it") {
+  const RunningGmsh gmsh;
+  for (const int order : {2, 3})
+    for (const bool turned : {false, true}) {
+      CAPTURE(order);
+      CAPTURE(turned);
+      // The given side leaves the corner (0, 0) at 135 degrees, where the side beside it leads at 132.
+      adapter::CurvedElements elements(
+          {{0, 0, 0}, {0, 1, 0}, {-1, 1.6, 0}, {-1, 1.1, 0}, {-1.2, -0.6, 0}, {0.2, -0.8, 0}});
+      for (const std::size_t corners : {3, 4})
+        elements.set_type(adapter::element_type(adapter::type_number(corners, order, false)));
+      if (turned) elements.add_side(3, 0), elements.add_side(1, 0);
+      const Index over = elements.add({0, 1, 2, 3}), under = elements.add({0, 3, 4, 5});
+      adapter::CurvedSide& given = elements.side(elements.element(over).sides[0]);
+      given.is_given = true;
+      for (adapter::MiddleNode& node : given.nodes) node.place.x() -= node.place.y() * (1 - node.place.y());
+      elements.fill(over);
+      CHECK(elements.find_folded() == over);
+      CHECK(elements.unfold() > 0);
+      CHECK(elements.find_folded() == kNone);
+      CHECK(elements.side(elements.element(over).sides[3]).has_moved);
+      CHECK(!elements.is_folded(under));
+    }
+}
+
 TEST_CASE("curved elements: the summary tells what is straight, and what is not on the geometry") {
   ModelReport model;
   CHECK(report::total_line(model, "out.msh", 0).find("straight") == std::string::npos);

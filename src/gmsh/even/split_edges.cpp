@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,7 +91,9 @@ void EdgeSplitter::find_edges() {
           changed_.insert(e);
           // Curves come before surfaces, so the first is the lowest; and if it is a surface, no line element is there.
           if (found->second.empty()) split_edge(edge, side, is_line ? e : lowest_owner(edge, e));
-          if (!is_line) report_[edge].surfaces.push_back(entity.tag);
+          if (is_line) continue;
+          report_[edge].surfaces.push_back(entity.tag);
+          if (block.order == 1) keep_upright(edge, block.nodes[i * block.nodes_per_element + (k + 2) % 3]);
         }
     }
   }
@@ -117,6 +120,22 @@ void EdgeSplitter::split_edge(const Key& edge, Tags nodes, std::uint32_t owner) 
   split.where = point(halves[halves.size() / 2]);
   if (mesh_.entities[owner].dim == 1) split.curve = mesh_.entities[owner].tag;
   edges_[edge] = std::move(halves);
+  owners_[edge] = owner;
+}
+
+/// Where a curve arches so far that a half of the triangle beside it would turn over, the new node lies on the chord.
+void EdgeSplitter::keep_upright(const Key& edge, std::size_t opposite) {
+  constexpr double kLeastShare = 0.2;  // of what each half has if the node lies on the chord
+  const std::size_t middle = edges_[edge][1];
+  const Vector3d a = point(edge.first), b = point(edge.second), c = point(opposite), p = point(middle);
+  const Vector3d normal = (b - a).cross(c - a);
+  const double least = kLeastShare * normal.squaredNorm() / 2;
+  if ((p - a).cross(c - a).dot(normal) >= least && (b - p).cross(c - p).dot(normal) >= least) return;
+  const Vector3d chord = (a + b) / 2;
+  EntityMesh& owner = mesh_.entities[owners_[edge]];
+  const auto row = std::find(owner.node_tags.rbegin(), owner.node_tags.rend(), middle).base() - 1;
+  std::copy_n(chord.data(), 3, owner.xyz.begin() + 3 * (row - owner.node_tags.begin()));
+  new_points_[middle] = report_[edge].where = chord;
 }
 
 /// Of an edge that is split; empty for others.

@@ -39,6 +39,7 @@ class EdgeSplitter {
   void find_edges();
   std::uint32_t lowest_owner(const Key& edge, std::uint32_t surface) const;
   void split_edge(const Key& edge, Tags nodes, std::uint32_t owner);
+  void keep_upright(const Key& edge, std::size_t opposite);
   Tags nodes_from(std::size_t a, std::size_t b) const;
   void split_lines(EntityMesh& entity);
   void split_triangles(std::uint32_t e);
@@ -51,6 +52,7 @@ class EdgeSplitter {
   std::map<Key, Tags> edges_;
   std::map<Key, SplitEdge> report_;
   std::map<std::size_t, Point> new_points_;
+  std::map<Key, std::uint32_t> owners_;  ///< of the new nodes
   std::set<std::uint32_t> changed_;
 };
 

@@ -214,10 +214,70 @@ bool CurvedElements::follow_given_side(Index e, const Around& around) {
       }
       for (const Index other : around[s]) fill(other);
       side.has_moved = true;
-      if (std::none_of(around[s].begin(), around[s].end(), [&](Index other) { return is_folded(other); })) return true;
+      if (!is_any_folded(around[s])) return true;
     }
     sides_[s] = before;
     for (const Index other : around[s]) fill(other);
+  }
+  return false;
+}
+
+bool CurvedElements::is_any_folded(const std::vector<Index>& elements) const {
+  return std::any_of(elements.begin(), elements.end(), [&](Index e) { return !elements_[e].is_kept && is_folded(e); });
+}
+
+/// Bends a side so that it leaves the corner that it has with a given one turned by `part` of the angle by which
+/// that does.
+void CurvedElements::turn_like(const CurvedSide& given, Index s, double part) {
+  CurvedSide& side = sides_[s];
+  const bool from_first = side.ends[0] == given.ends[0] || side.ends[0] == given.ends[1];
+  const Index corner = side.ends[from_first ? 0 : 1], far = side.ends[from_first ? 1 : 0];
+  const bool given_from_first = given.ends[0] == corner;
+  const Index given_far = given.ends[given_from_first ? 1 : 0];
+  const Vector3d along = points_[far] - points_[corner], given_along = points_[given_far] - points_[corner];
+  const Vector3d up = given_along.cross(along).normalized();
+  // What a parabola needs in its middle to leave the corner as the given side does.
+  const std::size_t count = side.nodes.size(), first = given_from_first ? 0 : count - 1;
+  const double step = 1.0 / static_cast<double>(count + 1);
+  const Vector3d rise = (given.nodes[first].place - on_line(given, first)) / (4 * step * (1 - step));
+  const double length = given_along.squaredNorm();
+  const double forth = rise.dot(given_along) / length, aside = rise.dot(up.cross(given_along)) / length;
+  const Vector3d bend = part * (forth * along + aside * up.cross(along));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = step * static_cast<double>(i + 1);
+    side.nodes[i].place = on_line(side, i) + 4 * t * (1 - t) * bend;
+    side.nodes[i].parameters = kNoParameters;
+    side.nodes[i].is_landed = false;
+  }
+  side.has_moved = true;
+}
+
+/// Where a given side turns so far at its ends that it folds the element, the sides beside it turn with it, as far as
+/// it takes: both, or one of them.
+bool CurvedElements::turn_beside_given_side(Index e, const Around& around) {
+  const CurvedElement& element = elements_[e];
+  const std::size_t n = element.sides.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const CurvedSide given = sides_[element.sides[k]];
+    if (!given.is_given || !is_bent(given)) continue;
+    const Index before = element.sides[(k + n - 1) % n], after = element.sides[(k + 1) % n];
+    for (const std::vector<Index>& beside : {std::vector{before, after}, {before}, {after}}) {
+      if (std::any_of(beside.begin(), beside.end(), [&](Index s) { return sides_[s].is_given; })) continue;
+      std::vector<CurvedSide> were;
+      std::vector<Index> touched;
+      for (const Index s : beside) {
+        were.push_back(sides_[s]);
+        touched.insert(touched.end(), around[s].begin(), around[s].end());
+      }
+      const auto fill_all = [&] { std::for_each(touched.begin(), touched.end(), [&](Index t) { fill(t); }); };
+      for (const double part : {0.5, 0.75, 1.0, 0.25}) {
+        for (const Index s : beside) turn_like(given, s, part);
+        fill_all();
+        if (!is_any_folded(touched)) return true;
+      }
+      for (std::size_t i = 0; i < beside.size(); ++i) sides_[beside[i]] = were[i];
+      fill_all();
+    }
   }
   return false;
 }
@@ -228,7 +288,7 @@ std::size_t CurvedElements::unfold() {
     for (const Index s : elements_[e].sides) around[s].push_back(e);
   straighten_folded(around);
   for (Index e = 0; e < elements(); ++e)
-    if (!elements_[e].is_kept && is_folded(e)) follow_given_side(e, around);
+    if (!elements_[e].is_kept && is_folded(e) && !follow_given_side(e, around)) turn_beside_given_side(e, around);
   return static_cast<std::size_t>(
       std::count_if(sides_.begin(), sides_.end(), [](const CurvedSide& side) { return side.has_moved; }));
 }

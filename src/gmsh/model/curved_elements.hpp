@@ -66,7 +66,7 @@ class CurvedElements {
   /// At a node of it the element is turned over, or flat, compared with one that has straight sides.
   bool is_folded(Index element) const;
   /// Straightens sides of folded elements, unless they are given. Where a given side folds one all the same, the side
-  /// opposite is bent like it. Some may stay folded.
+  /// opposite is bent like it, or those beside it turn with it. Some may stay folded.
   /// \return how many sides have moved
   std::size_t unfold();
   /// The first folded element that is not kept, or kNone.
@@ -86,6 +86,9 @@ class CurvedElements {
   void straighten(CurvedSide& side) const;
   void straighten_folded(const Around& around);
   bool follow_given_side(Index element, const Around& around);
+  bool is_any_folded(const std::vector<Index>& elements) const;
+  void turn_like(const CurvedSide& given, Index side, double part);
+  bool turn_beside_given_side(Index element, const Around& around);
   std::vector<Eigen::Vector3d> places(Index element) const;
 
   std::vector<Eigen::Vector3d> points_;
