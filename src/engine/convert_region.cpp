@@ -151,12 +151,11 @@ class RegionConverter {
     return paired;
   }
 
-  /// Where the front has gone astray, among triangles that leave it no room, they may be worth more paired as they are.
+  /// Where the front has gone astray, among triangles that leave it no room, they may be worth more paired as they are:
+  /// its quads are far too many then, be they good or poor.
   void take_pairs(Attempt& best) {
-    constexpr double kPoorMean = 0.6;
     const Worth worth = judge(best.mesh);
-    const bool is_astray = worth.mean < kPoorMean && worth.growth > 2 * kFairGrowth;
-    if (best.fault || !is_astray) return;
+    if (best.fault || worth.growth <= 2 * kFairGrowth) return;
     Attempt paired = pair_triangles();
     if (!paired.fault && is_better(judge(paired.mesh), worth)) best = std::move(paired);
   }
