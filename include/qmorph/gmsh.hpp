@@ -51,7 +51,9 @@ struct SurfaceReport {
   int tag = 0;
   std::string name;  ///< of its first physical group, or empty
   SurfaceOutcome outcome = SurfaceOutcome::left;
-  std::string reason;                 ///< of left: what is wrong, where, and what to do
+  /// Of left: what is wrong, where, and what to do. Of converted: where curved edges of the input turn an element over,
+  /// as they did before; or empty.
+  std::string reason;
   std::optional<ErrorDetails> error;  ///< of left: the same for programs
   std::vector<std::string> warnings;  ///< of a surface that was converted all the same
   std::size_t triangles_in = 0, quads_in = 0;

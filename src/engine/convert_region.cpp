@@ -156,13 +156,12 @@ class RegionConverter {
     return paired;
   }
 
-  /// Where the front has gone astray, or a small region leaves it no room, triangles may be worth more paired as they
-  /// are.
+  /// Where the front has gone astray (its quads are far too many then, be they good or poor), or a small region leaves
+  /// it no room, triangles may be worth more paired as they are.
   void take_pairs(Attempt& best) {
-    constexpr double kPoorMean = 0.6, kPoor = 0.3, kAsGood = 0.05;
+    constexpr double kPoor = 0.3, kAsGood = 0.05;
     const Worth worth = judge(best.mesh);
-    const bool is_astray = worth.mean < kPoorMean && worth.growth > 2 * kFairGrowth;
-    const bool has_no_room = is_small_ && worth.least < kPoor;
+    const bool is_astray = worth.growth > 2 * kFairGrowth, has_no_room = is_small_ && worth.least < kPoor;
     if (best.fault || !(is_astray || has_no_room)) return;
     Attempt paired = pair_triangles();
     const Worth other = judge(paired.mesh);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "kernel/sort_unique.hpp"
 
@@ -88,6 +89,58 @@ void drop_around_crumbs(const Background& surface, const std::vector<char>& coun
   }
 }
 
+/// Where few triangles meet at the tip of a cone, the edges between them are sharp, and the next ones outwards perhaps:
+/// what the triangulation makes of the tip, and no creases. All that begin at such a node end in the surface soon.
+class TipCreases {
+ public:
+  TipCreases(const space::Background& surface, std::vector<bool>& is_crease)
+      : surface_(surface), is_crease_(is_crease), is_outer_(surface.points().size(), 0) {
+    std::vector<std::pair<Index, Index>> ends;  // node, side that is a crease and starts there
+    for (Index side = 0; side < is_crease.size(); ++side) {
+      if (surface.opposite(side) == kNone) is_outer_[node(side)] = is_outer_[target(side)] = 1;
+      if (is_crease[side]) ends.emplace_back(node(side), side);
+    }
+    std::sort(ends.begin(), ends.end());
+    first_.assign(surface.points().size() + 1, 0);
+    for (const auto& [v, side] : ends) ++first_[v + 1], sides_.push_back(side);
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+  }
+
+  void drop() {
+    for (Index v = 0; v + 1 < first_.size(); ++v) {
+      const std::span<const Index> here = at(v);
+      if (here.size() < (is_outer_[v] ? 2u : 3u)) continue;
+      std::vector<Index> all;
+      if (!std::all_of(here.begin(), here.end(), [&](Index side) { return ends_soon(side, all); })) continue;
+      for (const Index side : all) is_crease_[side] = is_crease_[surface_.opposite(side)] = false;
+    }
+  }
+
+ private:
+  Index node(Index side) const { return surface_.corners(side / 3)[side % 3]; }
+  Index target(Index side) const { return surface_.corners(side / 3)[(side % 3 + 1) % 3]; }
+  std::span<const Index> at(Index v) const { return {sides_.data() + first_[v], first_[v + 1] - first_[v]}; }
+
+  /// Adds the way.
+  bool ends_soon(Index side, std::vector<Index>& way) const {
+    constexpr int kFewEdges = 3;
+    for (int edges = 0; edges < kFewEdges; ++edges) {
+      way.push_back(side);
+      const Index v = target(side);
+      const std::span<const Index> onwards = at(v);
+      if (is_outer_[v] || onwards.size() > 2) return false;
+      if (onwards.size() == 1) return true;
+      side = target(onwards[0]) == node(side) ? onwards[1] : onwards[0];
+    }
+    return false;
+  }
+
+  const space::Background& surface_;
+  std::vector<bool>& is_crease_;
+  std::vector<char> is_outer_;  ///< by node
+  std::vector<Index> first_, sides_;
+};
+
 }  // namespace
 
 std::vector<std::pair<Index, Index>> find_creases(const Background& surface, double angle) {
@@ -104,6 +157,7 @@ std::vector<std::pair<Index, Index>> find_creases(const Background& surface, dou
     if (cosine >= least || is_of_bend(surface, side, std::acos(std::max(-1.0, cosine)))) continue;
     is_crease[side] = is_crease[other] = true;
   }
+  TipCreases(surface, is_crease).drop();
   drop_around_crumbs(surface, counts, is_crease);
   for (Index side = 0; side < is_crease.size(); ++side)
     if (is_crease[side])

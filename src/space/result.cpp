@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+}  // namespace
+
 std::vector<std::array<Index, 2>> kept_constraints(const Patch& before, const QuadMesh& after) {
   std::vector<Index> row(before.points.size(), kNone);
   for (Index i = 0; i < after.source.size(); ++i)
@@ -17,8 +19,6 @@ std::vector<std::array<Index, 2>> kept_constraints(const Patch& before, const Qu
     if (row[a] != kNone && row[b] != kNone) constraints.push_back({row[a], row[b]});
   return constraints;
 }
-
-}  // namespace
 
 Result::Result(const Patch& before, const QuadMesh& after)
     : after_(after),

@@ -12,6 +12,9 @@
 
 namespace qmorph::space {
 
+/// Constraints of a patch by the rows of what it was made into.
+std::vector<std::array<Index, 2>> kept_constraints(const Patch& before, const QuadMesh& after);
+
 /// What a surface was made into, and where on the surface its elements and nodes are. Both must outlive this. Cost:
 /// linear.
 class QMORPH_API Result {

@@ -88,6 +88,22 @@ bool is_same(const QuadMesh& a, const QuadMesh& b) {
 
 }  // namespace
 
+TEST_CASE("small regions: a triangle of six edges becomes three quads, not many small ones") {
+  for (const double bulge : {0.6, 0.7, 0.8}) {  // how far out the middles of its sides lie
+    CAPTURE(bulge);
+    Patch patch;
+    for (int i = 0; i < 6; ++i) {
+      const double angle = i * std::numbers::pi / 3, radius = i % 2 == 0 ? 1 : bulge;
+      patch.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+      patch.triangles.push_back({Index(i), Index((i + 1) % 6), 6});
+    }
+    patch.points.emplace_back(0.01, 0.02, 0);
+    const QuadMesh mesh = convert(patch).mesh;
+    CHECK(mesh.quads.size() == 3);
+    CHECK(worth_of(patch, mesh).least > 0.8);
+  }
+}
+
 TEST_CASE("convert region: trying other constants never makes a small region worse, and sometimes better") {
   const std::size_t tries = Options{}.retry_triangles;
   int better = 0;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -214,6 +215,90 @@ TEST_CASE("curved elements: where a given side turns past the one beside it, tha
       CHECK(elements.side(elements.element(over).sides[3]).has_moved);
       CHECK(!elements.is_folded(under));
     }
+}
+
+TEST_CASE("curved elements: where few edges go round a circle, no quad has two of them") {
+  const char* const kDisks[] = {
+      "Disk(1) = {0, 0, 0, 0.2}; MeshSize{:} = 0.2;",                    // six edges
+      "Disk(1) = {0, 0, 0, 0.2}; Curve{1}; Transfinite Curve{1} = 8;",   // seven
+      "Cone(1) = {0, 0, 0, 0, 0, 2, 1, 0.2}; MeshSize{:} = 0.2;",        // a small end
+      "Cylinder(1) = {0, 0, 0, 0, 0, 1, 0.5, Pi}; MeshSize{:} = 0.45;",  // half circles
+  };
+  for (const char* disk : kDisks)
+    for (const char* order : {"2", "3"})
+      for (const bool from_mesh : {false, true}) {
+        CAPTURE(disk);
+        CAPTURE(order);
+        CAPTURE(from_mesh);
+        const TemporaryDirectory directory;
+        write_file(directory / "in.geo", std::string("SetFactory(\"OpenCASCADE\");\n") + disk);
+        std::string input = directory / "in.geo";
+        if (from_mesh) {
+          make_msh(input = directory / "in.msh", 4.1, true, [&] {
+            ::gmsh::open(directory / "in.geo");
+            ::gmsh::model::mesh::generate(2);
+            ::gmsh::model::mesh::setOrder(order[0] - '0');
+          });
+        }
+        const Result result = run_qmorph({"-2", input, "-order", order, "-o", directory / "out.msh"});
+        CAPTURE(result.err);
+        CHECK(result.status == 0);
+        const Snapshot after = read_snapshot(directory / "out.msh");
+        const RunningGmsh gmsh;
+        for (const adapter::EntityMesh& entity : after.mesh.entities)
+          if (entity.dim == 2 && !entity.blocks.empty())
+            CHECK(adapter::find_bent(adapter::read_curved_elements(after.mesh, entity)) == "");
+      }
+}
+
+/// A thin crescent between two circles.
+const char* const kCrescent =
+    "SetFactory(\"OpenCASCADE\"); Disk(1) = {0, 0, 0, 1}; Disk(2) = {0.01, 0, 0, 1};\n"
+    "BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }\n"
+    "MeshSize{:} = 0.3; Mesh.MeshSizeMin = 0.3; Mesh.MeshSizeMax = 0.3;";
+
+TEST_CASE("curved elements: when an order is raised, sides on curves are made straight where nothing else helps") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", kCrescent);
+  const Result result = run_qmorph({"-2", directory / "in.geo", "-order", "2", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  CHECK(result.err.find(" moved to unfold elements") != std::string::npos);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  const RunningGmsh gmsh;
+  for (const adapter::EntityMesh& entity : after.mesh.entities)
+    if (entity.dim == 2 && !entity.blocks.empty())
+      CHECK(adapter::find_bent(adapter::read_curved_elements(after.mesh, entity)) == "");
+}
+
+TEST_CASE("curved elements: an edge inside a surface that bends too far is made straight, and not taken over") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, true, [&] {
+    write_file(directory / "in.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 3, 3}; MeshSize{:} = 0.5;");
+    ::gmsh::open(directory / "in.geo");
+    ::gmsh::model::mesh::generate(2);
+    ::gmsh::model::mesh::setOrder(2);
+    // All middle nodes inside go to one end of their edges, nearly.
+    std::vector<std::size_t> tags, nodes;
+    ::gmsh::model::mesh::getElementsByType(9, tags, nodes);
+    std::vector<double> at, parameters;
+    std::vector<std::size_t> inner;
+    ::gmsh::model::mesh::getNodes(inner, at, parameters, 2, 1);
+    const auto place = [](std::size_t node) { return Vector3d(adapter::placed_node(node).xyz.data()); };
+    for (std::size_t e = 0; e + 5 < nodes.size(); e += 6)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t a = nodes[e + k], b = nodes[e + (k + 1) % 3], middle = nodes[e + 3 + k];
+        if (std::count(inner.begin(), inner.end(), middle) == 0) continue;
+        const Vector3d p = 0.9 * place(std::min(a, b)) + 0.1 * place(std::max(a, b));
+        ::gmsh::model::mesh::setNode(middle, {p.x(), p.y(), p.z()}, {});
+      }
+  });
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  const RunningGmsh gmsh;
+  check_elements(after.mesh, 2);
 }
 
 TEST_CASE("curved elements: the summary tells what is straight, and what is not on the geometry") {

@@ -84,3 +84,34 @@ TEST_CASE("creases: a triangle without height does not decide") {
   patch.points[12] = {2.9999, 2, 0.0005};  // its neighbour on one side is a needle that stands on end
   CHECK(creases(patch, 60).empty());
 }
+
+TEST_CASE("creases: what few triangles make of the tip of a cone is none") {
+  for (const int around : {3, 4, 5}) {  // triangles at the tip; twice as many edges in each ring as in the one before
+    CAPTURE(around);
+    Patch patch;
+    patch.points.emplace_back(0, 0, 0);
+    std::vector<Index> inner(1, 0);
+    for (int ring = 1, count = around; ring <= 4; ++ring, count *= 2) {
+      std::vector<Index> outer;
+      for (int i = 0; i < count; ++i) {
+        outer.push_back(Index(patch.points.size()));
+        const double angle = 2 * std::numbers::pi * i / count;
+        patch.points.emplace_back(ring * std::cos(angle), ring * std::sin(angle), -3.0 * ring);
+      }
+      const auto out = [&](int i) { return outer[std::size_t(i % count)]; };
+      const auto in = [&](int i) { return inner[std::size_t(i) % inner.size()]; };
+      for (int i = 0; i < count; ++i) {
+        if (ring == 1) {
+          patch.triangles.push_back({0, out(i), out(i + 1)});
+        } else if (i % 2 == 0) {
+          patch.triangles.push_back({in(i / 2), out(i), out(i + 1)});
+        } else {
+          patch.triangles.push_back({in(i / 2), out(i), in(i / 2 + 1)});
+          patch.triangles.push_back({in(i / 2 + 1), out(i), out(i + 1)});
+        }
+      }
+      inner = outer;
+    }
+    CHECK(creases(patch).empty());
+  }
+}

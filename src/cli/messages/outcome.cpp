@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gmsh/read/meshing.hpp"
+#include "gmsh/read/raise.hpp"
 #include "gmsh/session/session.hpp"
 #include "report/summary.hpp"
 

@@ -29,7 +29,7 @@ Exit status:
   1  the command line makes no sense
   2  the input cannot be opened or meshed; nothing has been written
   3  converted in part: OUT has been written, and the surfaces that are named on stderr are in it as
-     they were
+     they were, or have elements that curved edges turn over
   4  there are no surfaces with elements; nothing has been written
   5  OUT cannot be written; a previous file of that name is as it was
   6  --check: the mesh is not good enough; --for: the reader would not take it, and nothing has been

@@ -81,7 +81,11 @@ int Conversion::run() {
     return no_surface;
   }
   see_what_will_be_written();
-  faults_ = finish_model(call_, opened_, session, model_);
+  for (const SurfaceReport& surface : model_.surfaces)
+    if (surface.outcome == SurfaceOutcome::converted && !surface.reason.empty())
+      faults_.push_back(fmt::format("surface {}: {}", surface.tag, surface.reason));
+  const std::vector<std::string> others = finish_model(call_, opened_, session, model_);
+  faults_.insert(faults_.end(), others.begin(), others.end());
   return write();
 }
 

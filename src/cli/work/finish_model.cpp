@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gmsh/read/meshing.hpp"
+#include "gmsh/read/raise.hpp"
 #include "gmsh/volumes/volumes.hpp"
 #include "gmsh/write/consumers.hpp"
 #include "gmsh/write/prepare.hpp"

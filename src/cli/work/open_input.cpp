@@ -10,6 +10,7 @@
 #include "cli/messages/outcome.hpp"
 #include "cli/process/reading_limits.hpp"
 #include "gmsh/read/meshing.hpp"
+#include "gmsh/read/raise.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/volumes/volumes.hpp"
 #include "qmorph/error.hpp"

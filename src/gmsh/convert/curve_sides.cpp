@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/convert/curve_sides.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "geometry/describe.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "qmorph/error.hpp"
 #include "space/result.hpp"
@@ -102,6 +108,53 @@ void count(const CurvedElements& elements, OnGeometry& sum) {
     if (!elements.element(e).is_kept) add(elements.element(e).inside);
 }
 
+/// The corners of the input's elements that are folded.
+class InputFolds {
+ public:
+  InputFolds(const ModelMesh& mesh, const EntityMesh& before) {
+    const CurvedElements elements = read_curved_elements(mesh, before);
+    for (Index e = 0; e < elements.elements(); ++e)
+      if (elements.is_folded(e))
+        for (const Index corner : elements.element(e).corners) corners_.insert(coordinates(elements, corner));
+  }
+  /// Two of the element's corners were a folded one's.
+  bool explain(const CurvedElements& elements, Index e) const {
+    const auto& corners = elements.element(e).corners;
+    return std::count_if(corners.begin(), corners.end(),
+                         [&](Index corner) { return corners_.contains(coordinates(elements, corner)); }) >= 2;
+  }
+
+ private:
+  using Coordinates = std::array<double, 3>;  // nodes that stay have the same, bit for bit
+  static Coordinates coordinates(const CurvedElements& elements, Index point) {
+    const Eigen::Vector3d& p = elements.points()[point];
+    return {p.x(), p.y(), p.z()};
+  }
+  std::set<Coordinates> corners_;
+};
+
+/// \throws SurfaceError for a folded element that is not the input's fault
+std::string find_given_folds(const ModelMesh& mesh, const EntityMesh& before,
+                             const std::vector<CurvedElements>& parts) {
+  std::optional<InputFolds> input;
+  std::size_t count = 0;
+  std::string first;
+  for (const CurvedElements& elements : parts)
+    for (Index e = 0; e < elements.elements(); ++e) {
+      if (elements.element(e).is_kept || !elements.is_folded(e)) continue;
+      const std::string where = "at " + describe(elements.points()[elements.element(e).corners[0]]);
+      if (!input) input.emplace(mesh, before);
+      if (!input->explain(elements, e))
+        throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there",
+                           {.kind = ErrorKind::no_valid_mesh});
+      if (count++ == 0) first = where;
+    }
+  if (count == 0) return {};
+  return fmt::format("its curved edges turn {} over {}, as they did triangles there; refine the mesh there",
+                     count == 1 ? "an element" : fmt::format("{} elements", count),
+                     count == 1 ? first : "(the first " + first + ")");
+}
+
 }  // namespace
 
 void curve_sides(const ModelMesh& mesh, const Lander& lander, ConvertedSurface& surface) {
@@ -115,10 +168,8 @@ void curve_sides(const ModelMesh& mesh, const Lander& lander, ConvertedSurface& 
     if (lander) Curving(part, result, lander, elements).run();
     surface.on_geometry.moved_sides += elements.unfold();
     if (lander) count(elements, surface.on_geometry);
-    if (const std::string where = find_bent(elements); !where.empty())
-      throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there",
-                         {.kind = ErrorKind::no_valid_mesh});
   }
+  surface.bent = find_given_folds(mesh, before, surface.curved);
 }
 
 }  // namespace qmorph::adapter

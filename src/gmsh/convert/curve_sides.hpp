@@ -9,7 +9,8 @@ namespace qmorph::adapter {
 /// Gives the elements of a converted surface of higher order their middle nodes: those of the input where a side is the
 /// input's, others where the lander takes them, or in the middle where that would fold an element. Nothing for order 1.
 /// \param lander may be empty
-/// \throws SurfaceError if an element is folded all the same
+/// Elements may be folded beside sides of the input that folded triangles, too: `ConvertedSurface::bent` says where.
+/// \throws SurfaceError if another element is folded all the same
 void curve_sides(const ModelMesh& mesh, const Lander& lander, ConvertedSurface& surface);
 
 }  // namespace qmorph::adapter

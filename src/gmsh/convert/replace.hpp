@@ -3,6 +3,7 @@
 /// Puts converted surfaces back into the current Gmsh model.
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "gmsh/model/curved_elements.hpp"
@@ -23,6 +24,7 @@ struct ConvertedSurface {
   std::vector<std::vector<Eigen::Vector2d>> parameters{};
   OnGeometry on_geometry{};
   std::vector<CurvedElements> curved{};  ///< of each part; empty for linear elements
+  std::string bent{};  ///< where curved sides of the input turn elements over, as they did triangles; or empty
 };
 
 /// Node tags of the results of one surface's parts.

@@ -13,6 +13,7 @@
 #include "gmsh/convert/complaints.hpp"
 #include "gmsh/convert/curve_sides.hpp"
 #include "gmsh/convert/onto_geometry.hpp"
+#include "gmsh/convert/pillow_bent.hpp"
 #include "gmsh/convert/stop_watch.hpp"
 #include "gmsh/model/extrusions.hpp"
 #include "gmsh/model/high_order.hpp"
@@ -197,6 +198,7 @@ void Run::check(const ConvertedSurface& converted, double beside) const {
 /// \throws SurfaceError
 void Run::settle(ConvertedSurface& converted) {
   StopWatch watch;
+  pillow_bent_quads(model_.mesh, converted);
   check(converted, kOnTriangles);
   const Lander lander = find_lander(model_.mesh, converted.surface.entity);
   if (lander) {
@@ -227,6 +229,7 @@ void Run::settle_image(ConvertedSurface& converted) {
 void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   StopWatch watch;
   report.outcome = SurfaceOutcome::converted;
+  report.reason = converted.bent;
   figures_.add_result(converted, report);
   if (task_ == Task::improve) figures_.compare_with_input(converted, report);
   converted_.push_back(std::move(converted));

@@ -171,6 +171,12 @@ Index CurvedElements::find_folded() const {
   return kNone;
 }
 
+bool CurvedElements::may_be_straight(Index s, const Around& around) const {
+  if (!sides_[s].is_given) return true;
+  return sides_[s].is_inner && around[s].size() == 2 &&
+         std::none_of(around[s].begin(), around[s].end(), [&](Index e) { return elements_[e].is_kept; });
+}
+
 void CurvedElements::straighten_folded(const Around& around) {
   std::vector<Index> open;
   for (Index e = 0; e < elements(); ++e) open.push_back(e);
@@ -180,8 +186,10 @@ void CurvedElements::straighten_folded(const Around& around) {
       if (elements_[e].is_kept || !is_folded(e)) continue;
       for (const Index s : elements_[e].sides) {
         CurvedSide& side = sides_[s];
-        if (side.is_given || !is_bent(side)) continue;
+        if (!may_be_straight(s, around) || !is_bent(side)) continue;
         straighten(side);
+        if (std::exchange(side.is_given, false))
+          for (MiddleNode& node : side.nodes) node.tag = 0;
         side.has_moved = true;
         changed.insert(changed.end(), around[s].begin(), around[s].end());
       }
@@ -192,6 +200,14 @@ void CurvedElements::straighten_folded(const Around& around) {
       if (!elements_[e].is_kept) fill(e);
     open = std::move(changed);
   }
+}
+
+std::vector<Index> CurvedElements::straighten_given(Index e) {
+  std::vector<Index> straightened;
+  for (const Index s : elements_[e].sides)
+    if (sides_[s].is_given && is_bent(sides_[s])) straighten(sides_[s]), straightened.push_back(s);
+  fill(e);
+  return straightened;
 }
 
 /// Bends the side opposite a given one like that, as far as it takes.

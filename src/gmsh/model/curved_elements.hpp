@@ -28,6 +28,7 @@ struct CurvedSide {
   std::array<Index, 2> ends;
   std::vector<MiddleNode> nodes;
   bool is_given = false;   ///< stays as it is
+  bool is_inner = false;   ///< given by nodes of the surface itself: may be made straight between two of its elements
   bool has_moved = false;  ///< from where it was, to unfold an element
 };
 
@@ -65,10 +66,13 @@ class CurvedElements {
 
   /// At a node of it the element is turned over, or flat, compared with one that has straight sides.
   bool is_folded(Index element) const;
-  /// Straightens sides of folded elements, unless they are given. Where a given side folds one all the same, the side
-  /// opposite is bent like it, or those beside it turn with it. Some may stay folded.
+  /// Straightens sides of folded elements, unless they are given and on a boundary, or those of kept elements. Where a
+  /// given side folds one all the same, the side opposite is bent like it, or those beside it turn with it. Some may
+  /// stay folded.
   /// \return how many sides have moved
   std::size_t unfold();
+  /// Straightens the given sides of an element. \return those that were bent
+  std::vector<Index> straighten_given(Index element);
   /// The first folded element that is not kept, or kNone.
   Index find_folded() const;
 
@@ -83,6 +87,7 @@ class CurvedElements {
   using Around = std::vector<std::vector<Index>>;  ///< elements at a side
   Vector3d on_line(const CurvedSide& side, std::size_t node) const;
   bool is_bent(const CurvedSide& side) const;
+  bool may_be_straight(Index side, const Around& around) const;
   void straighten(CurvedSide& side) const;
   void straighten_folded(const Around& around);
   bool follow_given_side(Index element, const Around& around);

@@ -97,7 +97,7 @@ MiddleNode given_node(const ModelMesh& mesh, std::size_t tag) {
 class ResultElements {
  public:
   ResultElements(const ModelMesh& mesh, const EntityMesh& before, const SurfacePart& part, const QuadMesh& result)
-      : mesh_(mesh), given_(before), elements_(result.points), tags_(result.points.size(), 0) {
+      : mesh_(mesh), before_(before), given_(before), elements_(result.points), tags_(result.points.size(), 0) {
     for (Index i = 0; i < result.points.size(); ++i) {
       const Index source = result.source[i];
       if (source != kNone && part.patch.points[source] == result.points[i]) tags_[i] = mesh.tags[part.rows[source]];
@@ -135,10 +135,14 @@ class ResultElements {
     CurvedSide& side = elements_.side(elements_.add_side(a, b));
     if (side.is_given) return;
     side.is_given = true;
+    side.is_inner = std::all_of(inner.begin(), inner.end(), [&](std::size_t tag) {
+      return &mesh_.entities[mesh_.owner[mesh_.rows.find(tag)]] == &before_;
+    });
     for (std::size_t i = 0; i < inner.size(); ++i) side.nodes[i] = given_node(mesh_, inner[i]);
   }
 
   const ModelMesh& mesh_;
+  const EntityMesh& before_;
   const GivenNodes given_;
   CurvedElements elements_;
   std::vector<std::size_t> tags_;  ///< of points that are where the input's node was, else 0

@@ -12,7 +12,6 @@
 #include <set>
 
 #include "gmsh/even/even_links.hpp"
-#include "gmsh/model/high_order.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/read/facing.hpp"
 #include "gmsh/session/compat.hpp"
@@ -331,64 +330,6 @@ MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_
   if (!task.compounds) face_as_geometry(task.bare, flags.reversed);
   meshed.even = mend_parity(task, meshed.division, keep_curves);
   return meshed;
-}
-
-int order_of_surfaces() {
-  std::vector<int> types;
-  ::gmsh::model::mesh::getElementTypes(types, 2);
-  int order = 1;
-  for (const int type : types) order = std::max(order, element_type(type).order);
-  return order;
-}
-
-void lower_model(int order) {
-  if (order_of_surfaces() <= order) return;
-  const StageLog log = run_logged([&] { ::gmsh::model::mesh::setOrder(order); });
-  if (!log.errors.empty())
-    throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
-}
-
-namespace {
-
-/// To where the elements have them.
-void move_middle_nodes(const CurvedElements& elements) {
-  const auto move = [](const MiddleNode& node) {
-    ::gmsh::model::mesh::setNode(node.tag, {node.place.x(), node.place.y(), node.place.z()}, {});
-  };
-  for (Index s = 0; s < elements.sides(); ++s)
-    if (elements.side(s).has_moved)
-      for (const MiddleNode& node : elements.side(s).nodes) move(node);
-  for (Index e = 0; e < elements.elements(); ++e)
-    for (const MiddleNode& node : elements.element(e).inside) move(node);
-}
-
-}  // namespace
-
-RaisedModel raise_model() {
-  RaisedModel raised;
-  const int order = static_cast<int>(get_option("Mesh.ElementOrder"));
-  if (order < 2 || order_of_surfaces() > 1) return raised;
-  const StageLog log = run_logged([&] {
-    ::gmsh::model::mesh::setOrder(order);
-    if (get_option("Mesh.HighOrderOptimize") != 0) ::gmsh::model::mesh::optimize("HighOrder");
-  });
-  if (!log.errors.empty())
-    throw InputError(fmt::format("Gmsh cannot make elements of order {}: {}", order, first_errors(log)));
-  raised.warnings = log.warnings;
-  const ModelMesh mesh = read_model_mesh();
-  for (const EntityMesh& entity : mesh.entities) {
-    if (entity.dim != 2) continue;
-    CurvedElements elements = read_curved_elements(mesh, entity);
-    if (const std::size_t moved_sides = elements.unfold(); moved_sides > 0) {
-      raised.moved_sides += moved_sides;
-      move_middle_nodes(elements);
-    }
-    const std::string where = find_bent(elements);
-    if (!where.empty())
-      raised.bent.push_back(fmt::format("surface {}: a curved edge of order {} turns an element over {}; refine there",
-                                        entity.tag, order, where));
-  }
-  return raised;
 }
 
 void partition(int count) {

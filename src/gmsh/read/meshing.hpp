@@ -48,23 +48,6 @@ struct RecombinationOff {
   ScopedOption subdivision{"Mesh.SubdivisionAlgorithm", 0};
 };
 
-/// What came of raising the order.
-struct RaisedModel {
-  std::vector<std::string> warnings;  ///< of Gmsh
-  std::vector<std::string> bent;      ///< surfaces whose curved edges turn an element over, and where
-  std::size_t moved_sides = 0;        ///< sides of elements, so that none is turned over
-};
-
-/// The largest one of an element; 1 without any.
-int order_of_surfaces();
-
-/// Makes the mesh one of a lower order, if it is of a higher one. \throws InputError
-void lower_model(int order);
-
-/// Gives a linear model the order of Mesh.ElementOrder, with nodes on the geometry. Nothing happens to others.
-/// \throws InputError
-RaisedModel raise_model();
-
 /// Cuts the current model's mesh into partitions. \throws InputError
 void partition(int count);
 

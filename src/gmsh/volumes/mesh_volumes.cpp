@@ -14,6 +14,7 @@
 #include "gmsh/model/put_back.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/read/meshing.hpp"
+#include "gmsh/read/raise.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/element_types.hpp"
 #include "gmsh/session/session.hpp"
