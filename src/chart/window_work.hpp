@@ -7,15 +7,20 @@
 #include "chart/divide.hpp"
 #include "chart/rework.hpp"
 #include "qmorph/options.hpp"
+#include "stretch/metric_field.hpp"
 
 namespace qmorph::chart {
 
+/// The surface under a window. `field` says how its triangles are stretched; null if they are not.
+struct Ground {
+  const space::Background& background;
+  const stretch::MetricField* field = nullptr;
+};
+
 /// Irregular nodes cancel, and the rest is smoothed.
-std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
-                                     const space::Background& background);
+std::optional<Reworked> clean_window(const LaidOut& window, const Options& options, const Ground& ground);
 
 /// Cancels irregular nodes that lie so far apart that looking for them everywhere would cost too much.
-std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
-                                         const space::Background& background);
+std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground);
 
 }  // namespace qmorph::chart

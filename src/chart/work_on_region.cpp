@@ -30,8 +30,7 @@ constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
-using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options,
-                                         const space::Background& background);
+using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options, const Ground& ground);
 
 /// Where a try has failed, by triangle of the region.
 struct Distrust {
@@ -109,7 +108,7 @@ class Worker {
   const space::Background& background() const { return *region_.background; }
 
   bool improve() {
-    faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
+    faults_ = space::improve(mesh_, creases_, region_, stretched_, options_.smoothing);
     return !find_fault();
   }
 
@@ -120,7 +119,7 @@ class Worker {
 
   void divide_region() {
     // Between existing quads an interface cannot be improved.
-    const bool straightens = task_ == Task::convert && !distrust_.interfaces;
+    const bool straightens = task_ == Task::convert && !distrust_.interfaces && !(options_.layers && region_.stretch());
     divide_region(straightens);
     if (straightens && std::any_of(division_.laid_out.begin(), division_.laid_out.end(), is_turned_over)) {
       start();
@@ -173,6 +172,7 @@ class Worker {
     std::vector<Reworked> results(parts);
     std::vector<ConversionReport> reports(parts);
     std::vector<Record> records(parts);
+    std::vector<char> is_stretched(parts, 0);
     const parallel::SharedProgress shared(options_.progress, double(mesh_.faces.size()));
     std::vector<ProgressCallback> progress;
     for (const auto& part : division_.parts) progress.push_back(shared.part(double(part.size())));
@@ -184,7 +184,9 @@ class Worker {
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
-        results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p]), {}};
+        PartWork work = work_on_part(part, own, most, task_, reports[p], records[p]);
+        is_stretched[p] = work.is_stretched;
+        results[p] = {&part.piece, std::move(work.mesh), {}};
         results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
       } catch (const SurfaceError&) {
         has_no_chart_[p] = true;
@@ -205,8 +207,17 @@ class Worker {
     }
     for (std::size_t stage = 1; stage < work_.stages.size(); ++stage) work_.stages[stage] = at_stage(stage, records);
     std::erase_if(results, [](const Reworked& result) { return !result.piece; });
+    note_stretched(is_stretched);
     mesh_ = replace(mesh_, results);
     if (results.size() < parts) pair_up_the_rest();
+  }
+
+  void note_stretched(const std::vector<char>& is_part_stretched) {
+    if (!is_any(is_part_stretched)) return;
+    stretched_.assign(region_.region.triangles.size(), 0);
+    for (Index p = 0; p < is_part_stretched.size(); ++p)
+      if (is_part_stretched[p] && !has_no_chart_[p])
+        for (Index f : division_.parts[p]) stretched_[mesh_.near[f]] = 1;
   }
 
   void pair_up_the_rest() {
@@ -258,6 +269,7 @@ class Worker {
 
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+    const Ground ground{background(), stretched_.empty() ? nullptr : region_.stretch()};
     bool changed = false;
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
@@ -266,7 +278,7 @@ class Worker {
       if (windows.empty()) return changed;
       std::vector<std::optional<Reworked>> reworked(windows.size());
       parallel::for_each_index(
-          windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, background()); });
+          windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, ground); });
       std::vector<Reworked> results;
       for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));
@@ -288,6 +300,7 @@ class Worker {
   Division division_;
   std::vector<char> has_no_chart_;    ///< by part
   std::vector<char> needs_cleaning_;  ///< by node: of parts without a chart
+  std::vector<char> stretched_;       ///< by triangle of the region; empty if none is
   space::Faults faults_;
 };
 
