@@ -32,8 +32,8 @@ Plane plane_of(const LaidOut& part, bool is_watched) {
 
 }  // namespace
 
-PartWork work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
-                          ConversionReport& report, Record& record) {
+PartWork work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
+                      Record& record) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(part, options.observer != nullptr);
   const Region region = piece.region(chart.flat());

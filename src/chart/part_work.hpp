@@ -18,7 +18,7 @@ struct PartWork {
 
 /// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was
 /// found
-PartWork work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
-                          ConversionReport& report, Record& record);
+PartWork work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
+                      Record& record);
 
 }  // namespace qmorph::chart

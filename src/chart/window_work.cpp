@@ -34,7 +34,7 @@ class WindowWork {
       : window_(window),
         background_(ground.background),
         options_(options),
-        stretched_(ground.field ? stretch::StretchedWindow::of(window, *ground.field, ground.background) : nullptr),
+        stretched_(stretch::StretchedWindow::of(window, ground)),
         work_{&window.piece, stretched_ ? stretched_->mesh() : window.piece.mesh(window.chart.flat()), {}},
         before_(work_.mesh),
         nodes_(window.piece.points.size()),
@@ -65,7 +65,7 @@ class WindowWork {
     const auto& [piece, chart] = window_;
     if (after.bad > before_.bad || after.mean < before_.mean - mean_loss || folds_onto_itself(work_.mesh, piece))
       return {};
-    if (stretched_ && !stretched_->bring_back(work_.mesh)) return {};
+    if (stretched_ && !stretched_->bring_back_straightened(work_.mesh)) return {};
     work_.lifted = lift(work_.mesh, piece, chart, background_);
     return std::move(work_);
   }

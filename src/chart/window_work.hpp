@@ -5,17 +5,11 @@
 #include <optional>
 
 #include "chart/divide.hpp"
+#include "chart/ground.hpp"
 #include "chart/rework.hpp"
 #include "qmorph/options.hpp"
-#include "stretch/metric_field.hpp"
 
 namespace qmorph::chart {
-
-/// The surface under a window. `field` says how its triangles are stretched; null if they are not.
-struct Ground {
-  const space::Background& background;
-  const stretch::MetricField* field = nullptr;
-};
 
 /// Irregular nodes cancel, and the rest is smoothed.
 std::optional<Reworked> clean_window(const LaidOut& window, const Options& options, const Ground& ground);

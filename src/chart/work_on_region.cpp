@@ -119,7 +119,7 @@ class Worker {
 
   void divide_region() {
     // Between existing quads an interface cannot be improved.
-    const bool straightens = task_ == Task::convert && !distrust_.interfaces && !(options_.layers && region_.stretch());
+    const bool straightens = task_ == Task::convert && !distrust_.interfaces;
     divide_region(straightens);
     if (straightens && std::any_of(division_.laid_out.begin(), division_.laid_out.end(), is_turned_over)) {
       start();
@@ -154,7 +154,7 @@ class Worker {
   }
 
   void straighten_interfaces() {
-    straighten(mesh_, creases_, interface_, background());
+    straighten(mesh_, creases_, interface_, {background(), options_.layers ? region_.stretch() : nullptr});
     opposite_ = opposite_sides(mesh_);
     division_.is_cut = sides_on(mesh_, interface_);
     const std::vector<bool> is_crease = sides_on(mesh_, creases_);
@@ -277,8 +277,8 @@ class Worker {
       const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
       if (windows.empty()) return changed;
       std::vector<std::optional<Reworked>> reworked(windows.size());
-      parallel::for_each_index(
-          windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, ground); });
+      parallel::for_each_index(windows.size(),
+                               [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, ground); });
       std::vector<Reworked> results;
       for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));

@@ -101,6 +101,13 @@ double irregular_share(const kernel::Mesh& mesh) {
   return inner > 0 ? double(irregular) / double(inner) : 0;
 }
 
+double mean_sine(const kernel::Mesh& mesh) {
+  double sum = 0, faces = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f)) sum += mesh.smallest_sine(f), ++faces;
+  return faces > 0 ? sum / faces : 0;
+}
+
 bool is_valid(const kernel::Mesh& mesh, const MetricField& field) {
   for (Index f = 0; f < mesh.face_slots(); ++f)
     if (mesh.is_live_face(f) && !is_valid(mesh, f, field)) return false;
@@ -114,21 +121,32 @@ struct Attempt {
   Record record{};
 };
 
-/// What decides between quads made in the chart and those of a front among the stretched triangles.
+/// What decides between quads made in the chart and those of a front among the stretched triangles: how near to
+/// rectangles they are in the plane, and how near to the triangles in size.
 struct Measure {
-  double size_ratio, irregular, least;
+  double size_ratio;        ///< by how much sizes are off
+  double mean_sine;         ///< of the smallest of each quad
+  double irregular, least;  ///< share of nodes; smallest sine
 
   bool loses_sizes() const { return size_ratio > kLargestSizeRatio; }
   bool is_poor() const { return least < kPoorQuad; }
-  bool is_better_than(const Measure& other) const {
-    // Such a front often keeps sizes by many small quads without any order.
-    if (other.loses_sizes() && size_ratio + irregular < other.size_ratio + other.irregular) return true;
-    return other.is_poor() && !is_poor() && !loses_sizes();
+  bool is_good() const {
+    constexpr double kGoodMean = 0.8;
+    return !loses_sizes() && !is_poor() && mean_sine >= kGoodMean;
   }
+  bool is_better_than(const Measure& other) const {
+    if (other.is_poor() && !is_poor() && !loses_sizes()) return true;
+    return worth() > other.worth();
+  }
+
+ private:
+  /// Quads that lean are worth what is left of their height; such a front often keeps sizes by many small quads without
+  /// any order.
+  double worth() const { return mean_sine * (1 - irregular) / size_ratio; }
 };
 
 Measure measure(const Attempt& attempt, const Region& region) {
-  return {size_ratio(region, attempt.mesh), irregular_share(attempt.mesh),
+  return {size_ratio(region, attempt.mesh), mean_sine(attempt.mesh), irregular_share(attempt.mesh),
           worth_of(attempt.mesh, region.triangles.size()).least};
 }
 
@@ -148,7 +166,7 @@ std::optional<Attempt> attempt(const MetricField& field, const Work& work) {
 }  // namespace
 
 std::optional<StretchedQuads> convert_stretched(const Region& region, const Plane& plane, const Options& options,
-                                              double allowed, ConversionReport& report, Record& record) {
+                                                double allowed, ConversionReport& report, Record& record) {
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
   if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
   const Surface surface(region.points, region.triangles, barriers_of(region));
@@ -157,13 +175,12 @@ std::optional<StretchedQuads> convert_stretched(const Region& region, const Plan
   std::optional<chart::Flattening> flattening = unfold(surface.background, field);
   if (!flattening) return {};
   const Unfolded chart(surface, field, std::move(*flattening));
-  std::optional<Attempt> best = attempt(field, [&](Attempt& own) {
-    return convert_in(chart, region, plane, options, allowed, own.report, own.record);
-  });
+  std::optional<Attempt> best = attempt(
+      field, [&](Attempt& own) { return convert_in(chart, region, plane, options, allowed, own.report, own.record); });
   if (!best) return {};
   const Measure own = measure(*best, region);
   bool in_chart = true;
-  if (own.loses_sizes() || own.is_poor()) {
+  if (!own.is_good()) {
     const std::size_t cost = best->mesh.work();
     std::optional<Attempt> plain = attempt(field, [&](Attempt& other) {
       return convert_region(region, plane, options, allowed - double(cost), other.report, other.record);

@@ -64,8 +64,7 @@ LogMetric MetricField::seen(Index triangle, const Vector3d& weights, const Vecto
   Node here;
   here.axis_u = axis_u, here.axis_v = axis_v;
   LogMetric sum;
-  for (int i = 0; i < 3; ++i)
-    sum += seen_from(here, nodes_[surface_.corners(triangle)[std::size_t(i)]]) * weights[i];
+  for (int i = 0; i < 3; ++i) sum += seen_from(here, nodes_[surface_.corners(triangle)[std::size_t(i)]]) * weights[i];
   return sum;
 }
 
@@ -90,6 +89,15 @@ double MetricField::length(Index from, Index to) const {
   const Vec2 flat(edge.dot(a.axis_u), edge.dot(a.axis_v));
   const double seen2 = flat.squaredNorm();
   return seen2 > 0 ? (mean * 0.5).length(flat) * std::sqrt(edge.squaredNorm() / seen2) : 0;
+}
+
+double MetricField::length(const space::Foot& at, const Vector3d& vector) const {
+  const double size = vector.norm();
+  const Vector3d& normal = surface_.normal(at.triangle);
+  const Vector3d along = vector - vector.dot(normal) * normal;
+  if (!(along.squaredNorm() > 0)) return 0;
+  const Vector3d axis = along.normalized();
+  return seen(at.triangle, at.weights, axis, normal.cross(axis)).length(Vec2(size, 0));
 }
 
 std::vector<double> MetricField::side_lengths() const {

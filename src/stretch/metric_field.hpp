@@ -24,11 +24,15 @@ class MetricField {
   const LogMetric& at(Index node) const { return nodes_[node].metric; }
   /// Length of the edge between two nodes; the same both ways.
   double length(Index from, Index to) const;
+  /// Length of a short vector at a point of a triangle.
+  double length(const space::Foot& at, const Eigen::Vector3d& vector) const;
   /// The lengths of all sides of the surface.
   std::vector<double> side_lengths() const;
   /// The metric at the point of a triangle with these weights, by axes of the tangent plane there.
   LogMetric seen(Index triangle, const Eigen::Vector3d& weights, const Eigen::Vector3d& axis_u,
                  const Eigen::Vector3d& axis_v) const;
+  /// Share of the nodes at which the ratio is larger than this.
+  double share_above(double ratio) const;
   bool is_stretched() const { return share_above(kStretched) >= kStretchedShare; }
   double largest_ratio() const;
   /// Where tangent planes are one plane and ratio and direction are nearly the same everywhere: their mean, which leaves
@@ -41,8 +45,6 @@ class MetricField {
     LogMetric metric;
     double triangles = 0;
   };
-  /// Share of the nodes at which the ratio is larger than this.
-  double share_above(double ratio) const;
   void add_axes();
   void add_metrics();
   void smooth();

@@ -56,9 +56,10 @@ StretchedWindow::StretchedWindow(const chart::LaidOut& window, const std::vector
       surface_(window.chart.flat(), window.piece.halves, window.piece.barriers()),
       field_(surface_.background, metrics) {}
 
-std::unique_ptr<StretchedWindow> StretchedWindow::of(const chart::LaidOut& window, const MetricField& field,
-                                                     const space::Background& background) {
-  std::unique_ptr<StretchedWindow> own(new StretchedWindow(window, metrics_in(window, field, background)));
+std::unique_ptr<const StretchedWindow> StretchedWindow::of(const chart::LaidOut& window, const chart::Ground& ground) {
+  if (!ground.field) return nullptr;
+  std::unique_ptr<StretchedWindow> own(
+      new StretchedWindow(window, metrics_in(window, *ground.field, ground.background)));
   if (!own->field_.is_stretched()) return nullptr;
   std::optional<chart::Flattening> flattening = unfold(own->surface_.background, own->field_);
   if (!flattening) return nullptr;
@@ -66,7 +67,7 @@ std::unique_ptr<StretchedWindow> StretchedWindow::of(const chart::LaidOut& windo
   return own;
 }
 
-bool StretchedWindow::bring_back(kernel::Mesh& mesh) const {
+bool StretchedWindow::bring_back_straightened(kernel::Mesh& mesh) const {
   unfolded_->lift_and_straighten(mesh);
   for (Index f = 0; f < mesh.face_slots(); ++f)
     if (mesh.is_live_face(f) && !is_valid(mesh, f, field_)) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Random domains whose triangles are stretched, all alike or around a circle: what the quads are worth is measured where
-// nothing is stretched.
+// nothing is stretched. Rolled up, they are worth what they are flat.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -15,6 +15,7 @@
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
 #include "support/seeds.hpp"
+#include "support/surfaces.hpp"
 
 using namespace qmorph;
 using namespace qmorph::test;
@@ -148,12 +149,42 @@ TEST_CASE("domains that are stretched around a circle become quads that are stre
   CHECK(double(pools.kept) > 0.9 * double(pools.domains));
 }
 
+TEST_CASE("stretched domains that are rolled onto cylinders and cones come out as they do in the plane") {
+  Pool flat, bent;
+  std::size_t domains = 0, kept = 0;
+  for (std::uint64_t seed = 0; seed < seeds(150, 40); ++seed) {
+    const auto patch = large_domain(seed);
+    if (!patch) continue;
+    CAPTURE(seed);
+    Options options;
+    options.retry_triangles = 0;
+    Rng rng(seed);
+    const Patch there = mapped(*patch, stretching(std::array{5.0, 10.0, 20.0}[seed % 3]).to);
+    const Patch rolled_up = rolled(there, seed % 2 ? rng.between(0.3, 0.9) : 0, rng);
+    const QuadMesh plane = convert(there, options).mesh, curved = convert(rolled_up, options).mesh;
+    const auto broken = broken_invariants(rolled_up, curved);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    flat.add(plane);
+    bent.add(curved);
+    ++domains;
+    kept += largest_ratio(median(directed_sizes(rolled_up, curved.points, curved.quads))) <=
+            std::max(kLargestSizeRatio, largest_ratio(median(directed_sizes(there, plane.points, plane.quads))));
+  }
+  REQUIRE(domains > 5);
+  CHECK(bent.mean() > 0.95 * flat.mean());
+  CHECK(bent.quads == doctest::Approx(flat.quads).epsilon(0.05));
+  CHECK(bent.irregular_share() < 1.2 * flat.irregular_share() + 0.004);
+  CHECK(double(kept) > 0.9 * double(domains));
+}
+
 TEST_CASE("stretched domains: one thread and two make the same bytes") {
   for (std::uint64_t seed = 0; seed < seeds(40, 20); ++seed) {
     auto patch = large_domain(seed);
     if (!patch) continue;
     patch = mapped(*patch, bending(5, 2).to);
     if (has_turned_over(*patch)) continue;
+    Rng rng(seed);
+    if (seed % 2) patch = rolled(*patch, 0, rng);
     Options options;
     options.threads = 1;
     const QuadMesh one = convert(*patch, options).mesh;
