@@ -32,13 +32,13 @@ Plane plane_of(const LaidOut& part, bool is_watched) {
 
 }  // namespace
 
-PartWork work_on_part(const LaidOut& part, const Options& options, double allowed, Task task, ConversionReport& report,
-                      Record& record) {
+PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, double allowed, Task task,
+                      ConversionReport& report, Record& record) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(part, options.observer != nullptr);
   const Region region = piece.region(chart.flat());
   if (task == Task::convert) {
-    if (options.layers)
+    if (ground.field)
       if (auto quads = stretch::convert_stretched(region, plane, options, allowed, report, record))
         return {std::move(quads->mesh), quads->in_chart};
     return {convert_region(region, plane, options, allowed, report, record)};

@@ -44,7 +44,12 @@ struct Distrust {
 class Worker {
  public:
   Worker(const CurvedRegion& region, const Options& options, double allowed, Task task, const Distrust& distrust)
-      : region_(region), options_(options), allowed_(allowed), task_(task), distrust_(distrust) {
+      : region_(region),
+        options_(options),
+        allowed_(allowed),
+        task_(task),
+        distrust_(distrust),
+        ground_{*region.background, may_stretch() ? region.stretch() : nullptr} {
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
@@ -107,6 +112,9 @@ class Worker {
  private:
   const space::Background& background() const { return *region_.background; }
 
+  /// What is refined here is as long as there were too few nodes.
+  bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
+
   bool improve() {
     faults_ = space::improve(mesh_, creases_, region_, stretched_, options_.smoothing);
     return !find_fault();
@@ -154,7 +162,7 @@ class Worker {
   }
 
   void straighten_interfaces() {
-    straighten(mesh_, creases_, interface_, {background(), options_.layers ? region_.stretch() : nullptr});
+    straighten(mesh_, creases_, interface_, ground_);
     opposite_ = opposite_sides(mesh_);
     division_.is_cut = sides_on(mesh_, interface_);
     const std::vector<bool> is_crease = sides_on(mesh_, creases_);
@@ -184,7 +192,7 @@ class Worker {
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
-        PartWork work = work_on_part(part, own, most, task_, reports[p], records[p]);
+        PartWork work = work_on_part(part, ground_, own, most, task_, reports[p], records[p]);
         is_stretched[p] = work.is_stretched;
         results[p] = {&part.piece, std::move(work.mesh), {}};
         results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
@@ -269,7 +277,7 @@ class Worker {
 
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
-    const Ground ground{background(), stretched_.empty() ? nullptr : region_.stretch()};
+    const Ground ground{background(), stretched_.empty() ? nullptr : ground_.field};
     bool changed = false;
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
@@ -293,6 +301,7 @@ class Worker {
   const double allowed_;
   const Task task_;
   const Distrust& distrust_;
+  const Ground ground_;
   RegionWork work_;
   SurfaceMesh mesh_;
   std::vector<Index> opposite_;

@@ -18,8 +18,8 @@
 namespace qmorph::stretch {
 namespace {
 
-/// Fewer triangles may be what they are by chance, or because the boundary leaves no room; if they are not even alike.
-constexpr std::size_t kFewest = 100, kFewestAlike = 16;
+/// Fewer triangles may be what they are by chance, or because the boundary leaves no room, though they are alike.
+constexpr std::size_t kFewestAlike = 16;
 
 std::vector<space::Background::Edge> barriers_of(const Region& region) {
   std::vector<space::Background::Edge> edges;
@@ -42,20 +42,12 @@ bool may_be_stretched(const Region& region) {
   return double(count) >= kStretchedShare * double(region.triangles.size());
 }
 
-/// Enough nodes inside for the stretch to be the triangles' own: those between two curves, or around one node, are long
-/// because there is nothing else to join.
-bool has_inside(const space::Background& surface) {
-  constexpr double kLeast = 0.25;  // of all nodes
-  std::size_t boundary = 0;
-  for (Index side = 0; side < 3 * surface.triangles(); ++side) boundary += surface.opposite(side) == kNone;
-  const double all = double(surface.points().size());
-  return all - double(boundary) >= kLeast * all;
-}
-
 /// Whether the stretch is the triangles' own.
 bool is_stretched(const space::Background& surface, const MetricField& field) {
+  std::size_t outer = 0;
+  for (Index side = 0; side < 3 * surface.triangles(); ++side) outer += surface.opposite(side) == kNone;
   if (!field.is_stretched()) return false;
-  return field.uniform() || (surface.triangles() >= kFewest && has_inside(surface));
+  return field.uniform() || has_inside(surface.triangles(), surface.points().size(), outer);
 }
 
 /// Quads of the region, made in the chart.
@@ -121,8 +113,8 @@ struct Attempt {
   Record record{};
 };
 
-/// What decides between quads made in the chart and those of a front among the stretched triangles: how near to
-/// rectangles they are in the plane, and how near to the triangles in size.
+/// What decides between quads made in the chart and those of a front among the stretched triangles. First of all, sizes
+/// are to be kept; then it counts how near to rectangles quads are in the plane, and how near to triangles in size.
 struct Measure {
   double size_ratio;        ///< by how much sizes are off
   double mean_sine;         ///< of the smallest of each quad
@@ -135,8 +127,8 @@ struct Measure {
     return !loses_sizes() && !is_poor() && mean_sine >= kGoodMean;
   }
   bool is_better_than(const Measure& other) const {
-    if (other.is_poor() && !is_poor() && !loses_sizes()) return true;
-    return worth() > other.worth();
+    if (other.loses_sizes()) return worth() > other.worth();
+    return !loses_sizes() && ((other.is_poor() && !is_poor()) || worth() > other.worth());
   }
 
  private:

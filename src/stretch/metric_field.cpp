@@ -147,6 +147,12 @@ std::optional<LogMetric> MetricField::uniform() const {
   return mean;
 }
 
+bool has_inside(std::size_t triangles, std::size_t nodes, std::size_t outer) {
+  constexpr std::size_t kFewest = 100;  // triangles
+  constexpr double kLeast = 0.25;       // of all nodes
+  return triangles >= kFewest && double(nodes) - double(outer) >= kLeast * double(nodes);
+}
+
 bool may_be_stretched(const space::Background& surface) {
   std::size_t count = 0;
   for (Index t = 0; t < surface.triangles(); ++t) {

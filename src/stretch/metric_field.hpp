@@ -58,4 +58,8 @@ class MetricField {
 /// A look at single triangles: whether as many are so long that the surface may be stretched.
 bool may_be_stretched(const space::Background& surface);
 
+/// Enough triangles, and enough nodes inside, for the stretch to be the triangles' own: those between two curves, or
+/// around one node, are long because there is nothing else to join. `outer` of the nodes lie where the surface ends.
+bool has_inside(std::size_t triangles, std::size_t nodes, std::size_t outer);
+
 }  // namespace qmorph::stretch
