@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "chart/divide.hpp"
+#include "chart/ground.hpp"
 #include "chart/rework.hpp"
 #include "qmorph/options.hpp"
 
@@ -16,9 +17,9 @@ struct WindowResult {
 };
 
 /// Irregular nodes cancel, and the rest is smoothed.
-WindowResult clean_window(const LaidOut& window, const Options& options, const space::Background& background);
+WindowResult clean_window(const LaidOut& window, const Options& options, const Ground& ground);
 
 /// Cancels irregular nodes that lie so far apart that looking for them everywhere would cost too much.
-WindowResult cancel_in_window(const LaidOut& window, const Options& options, const space::Background& background);
+WindowResult cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground);
 
 }  // namespace qmorph::chart

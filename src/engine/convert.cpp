@@ -21,8 +21,8 @@ namespace {
 kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, double allowed,
                           ConversionReport& report, Record& record) {
   if (options.layers)
-    if (auto mesh = stretch::convert_stretched(region, plane, options, allowed, report, record))
-      return std::move(*mesh);
+    if (auto quads = stretch::convert_stretched(region, plane, options, allowed, report, record))
+      return std::move(quads->mesh);
   return convert_region(region, plane, options, allowed, report, record);
 }
 
