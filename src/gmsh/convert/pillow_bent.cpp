@@ -172,6 +172,40 @@ std::size_t folded(const ModelMesh& mesh, const EntityMesh& before, const Surfac
   return count;
 }
 
+/// The quads that share a node with these, and these.
+std::vector<Index> with_neighbours(const QuadMesh& mesh, const std::vector<Index>& quads, std::size_t kept) {
+  std::vector<char> is_near(mesh.points.size(), 0);
+  for (const Index q : quads)
+    for (const Index v : mesh.quads[q]) is_near[v] = 1;
+  std::vector<Index> near;
+  for (Index q = Index(kept); q < mesh.quads.size(); ++q)
+    if (std::any_of(mesh.quads[q].begin(), mesh.quads[q].end(), [&](Index v) { return is_near[v]; })) near.push_back(q);
+  return near;
+}
+
+/// Smallest scaled Jacobian of a quad.
+double least_sine(const SurfacePart& part, const QuadMesh& mesh) {
+  const space::Result result(part.patch, mesh);
+  double least = 1;
+  for (Index q = 0; q < mesh.quads.size(); ++q) {
+    space::Corners<4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.points[mesh.quads[q][k]];
+    const auto sines = result.sines(Index(mesh.triangles.size()) + q, p, mesh.quads[q]);
+    least = std::min(least, *std::min_element(sines.begin(), sines.end()));
+  }
+  return least;
+}
+
+/// Around the bent quads alone, or a ring that takes in those around as well, if that is better: a row along a whole
+/// circle is.
+QuadMesh best_pillow(const SurfacePart& part, const space::Result& result, const std::vector<Index>& bent,
+                     std::size_t kept) {
+  QuadMesh best = space::pillow(part.patch, result, bent);
+  const std::vector<Index> more = with_neighbours(result.mesh(), bent, kept);
+  QuadMesh other = space::pillow(part.patch, result, more);
+  return least_sine(part, other) > least_sine(part, best) ? other : best;
+}
+
 }  // namespace
 
 void pillow_bent_quads(const ModelMesh& mesh, ConvertedSurface& surface) {
@@ -182,7 +216,7 @@ void pillow_bent_quads(const ModelMesh& mesh, ConvertedSurface& surface) {
     const space::Result result(part.patch, surface.results[p]);
     const std::vector<Index> bent = bent_quads(mesh, before, part, result, kept);
     if (bent.empty()) continue;
-    QuadMesh pillowed = space::pillow(part.patch, result, bent);
+    QuadMesh pillowed = best_pillow(part, result, bent, kept);
     const std::size_t were = folded(mesh, before, part, surface.results[p]);
     const std::size_t are = folded(mesh, before, part, pillowed);
     if (are < were || were == 0) surface.results[p] = std::move(pillowed);
