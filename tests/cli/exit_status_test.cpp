@@ -125,7 +125,7 @@ TEST_CASE("status 2: a mesh that contradicts itself, of which Gmsh would read a 
   const struct {
     std::string text, message;
   } kCases[] = {
-      {whole.substr(0, whole.find("$Elements")), "has no $Elements"},
+      {whole.substr(0, whole.find("$Elements")), "has no $Elements: it is not complete, or Gmsh has left out what"},
       {with("$Elements\n32\n", "$Elements\n30\n"), "$Elements says 30, and there are 32"},
       {with("$Elements\n32\n", "$Elements\n-1\n"), "$Elements says -1, and there are 32"},
       {with("2.2 0 8", "2.2 1 8"), "says that it is binary and is not"},

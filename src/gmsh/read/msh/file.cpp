@@ -189,7 +189,11 @@ MshContents check_msh_file(const std::string& path, const MshHeader& header, boo
   check_complete(path);
   const MappedFile file(path);
   const MshContents contents = MshCheck(path, file.text(), header.version).run();
-  if (whole && !contents.elements) throw InputError(fmt::format("{} has no $Elements: it is not complete", path));
+  if (whole && !contents.elements)
+    throw InputError(
+        fmt::format("{} has no $Elements: it is not complete, or Gmsh has left out what is in no physical "
+                    "group (gmsh -save_all writes everything)",
+                    path));
   return contents;
 }
 
