@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Random domains whose triangles are stretched, all alike or around a circle: what the quads are worth is measured where
-// nothing is stretched. The same on cylinders.
+// Random domains whose triangles are stretched, all alike or around a circle: what the quads are worth is measured
+// where nothing is stretched. The same on cylinders.
 #include <doctest/doctest.h>
 
 #include <array>
