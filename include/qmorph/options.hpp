@@ -110,7 +110,7 @@ struct Options {
   CleanupOptions cleanup;
   SmoothingOptions smoothing;
   /// Pairs of triangles in boundary layers, structured strips and grids become the quads that they are halves of; the
-  /// front works on the rest. Where triangles of a plane are stretched otherwise, quads are stretched as these are.
+  /// front works on the rest. Where triangles are stretched otherwise, quads are stretched as these are.
   bool layers = true;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries
   /// together take no more triangles than this, or than six times its own where a region of up to twice as many has a

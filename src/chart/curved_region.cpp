@@ -32,7 +32,19 @@ CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) 
       barriers.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
   background = std::make_unique<const space::Background>(points, region.triangles, barriers);
   creases = find_creases(*background, crease_angle);
+  find_stretch();
   if (crease_angle < std::numbers::pi) find_tips(2 * std::numbers::pi * (1 - std::cos(crease_angle)));
+}
+
+void CurvedRegion::find_stretch() {
+  std::vector<char> is_outer(points.size(), 0);
+  for (const auto& [a, b] : barriers) is_outer[a] = is_outer[b] = 1;
+  for (const auto& [a, b] : creases) is_outer[a] = is_outer[b] = 1;
+  const auto outer = std::size_t(std::count(is_outer.begin(), is_outer.end(), 1));
+  if (!stretch::has_inside(region.triangles.size(), points.size(), outer)) return;
+  if (!stretch::may_be_stretched(*background)) return;
+  auto field = std::make_unique<const stretch::MetricField>(*background);
+  if (field->is_stretched()) stretch_ = std::move(field);
 }
 
 /// A cone whose side is inclined by the angle of a crease lacks so many radians around its tip.

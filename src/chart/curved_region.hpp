@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "chart/surface_mesh.hpp"
+#include "stretch/metric_field.hpp"
 
 namespace qmorph::chart {
 
@@ -22,9 +23,14 @@ struct CurvedRegion {
   /// quads, two and two.
   SurfaceMesh start() const;
   std::size_t first_half = std::size_t(-1);
+  /// How the triangles are stretched; null if they are not.
+  const stretch::MetricField* stretch() const { return stretch_.get(); }
 
  private:
   void find_tips(double least);
+  void find_stretch();
+
+  std::unique_ptr<const stretch::MetricField> stretch_;
 };
 
 /// The regions of a patch of triangles; `first_half` as above.

@@ -9,6 +9,7 @@
 #include "chart/windows.hpp"
 #include "engine/parts/interface.hpp"
 #include "kernel/sort_unique.hpp"
+#include "stretch/window.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -17,10 +18,11 @@ constexpr WindowSize kStraighteningWindow{9, 4, 1500};
 
 /// Straightens the interfaces in one window. The parts that they part there are numbered for the window alone.
 void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_cut,
-                       const std::vector<Edge>& interface, const Window& window, const space::Background& background) {
+                       const std::vector<Edge>& interface, const Window& window, const Ground& ground) {
   const Piece& piece = window.laid_out->piece;
   const Chart& chart = window.laid_out->chart;
-  kernel::Mesh flat = piece.mesh(chart.flat());
+  const auto stretched = stretch::StretchedWindow::of(*window.laid_out, ground);
+  kernel::Mesh flat = stretched ? stretched->mesh() : piece.mesh(chart.flat());
   qmorph::Division division;
   division.part.assign(flat.face_slots(), 0);
   const auto sides = components(window.faces, opposite, is_cut);
@@ -34,7 +36,8 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
       nodes.push_back(flat.origin(h));
   sort_unique(nodes);
   straighten_interfaces(flat, division, nodes);
-  const Lifted lifted = lift(flat, piece, chart, background);
+  if (stretched) stretched->bring_back(flat);
+  const Lifted lifted = lift(flat, piece, chart, ground.background);
   for (Index v = 0; v < piece.points.size(); ++v) {
     mesh.points[piece.vertex[v]] = lifted.points[v];
     mesh.on[piece.vertex[v]] = lifted.on[v];
@@ -43,7 +46,7 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
 
 /// `waiting`: nodes of interfaces that have to be looked at.
 void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, const std::vector<Edge>& interface,
-                       std::vector<char> waiting, const space::Background& background) {
+                       std::vector<char> waiting, const Ground& ground) {
   const std::vector<Index> opposite = opposite_sides(mesh);
   const std::vector<bool> is_crease = sides_on(mesh, creases);
   std::vector<bool> is_cut = sides_on(mesh, interface);
@@ -51,7 +54,7 @@ void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, cons
   while (is_any(waiting)) {
     const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting);
     if (windows.empty()) return;
-    for (const Window& window : windows) straighten_window(mesh, opposite, is_cut, interface, window, background);
+    for (const Window& window : windows) straighten_window(mesh, opposite, is_cut, interface, window, ground);
   }
 }
 
@@ -86,14 +89,14 @@ std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edg
 }
 
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
-                const space::Background& background) {
+                const Ground& ground) {
   if (interface.empty()) return;
   constexpr int kSteps = 4;  // along the interface from a node that another has become
-  const std::vector<double> size = mean_edges(mesh);
+  const std::vector<double> size = mean_edges(mesh, ground);
   std::vector<char> waiting(mesh.points.size(), 0);
   for (const auto& [a, b] : interface) waiting[a] = waiting[b] = 1;
-  straighten_around(mesh, creases, interface, waiting, background);
-  const std::vector<Index> changed = thin_out(mesh, size, creases, interface, background);
+  straighten_around(mesh, creases, interface, waiting, ground);
+  const std::vector<Index> changed = thin_out(mesh, size, creases, interface, ground);
   if (changed.empty()) return;
   waiting.assign(mesh.points.size(), 0);
   for (Index v : changed) waiting[v] = 1;
@@ -102,7 +105,7 @@ void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector
     for (const auto& [a, b] : interface)
       if (before[a] || before[b]) waiting[a] = waiting[b] = 1;
   }
-  straighten_around(mesh, creases, interface, std::move(waiting), background);
+  straighten_around(mesh, creases, interface, std::move(waiting), ground);
 }
 
 }  // namespace qmorph::chart

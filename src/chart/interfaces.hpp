@@ -3,6 +3,7 @@
 /// Interfaces between parts act as boundaries while the parts are worked on; no line of the surface has to lie there.
 
 #include "chart/divide.hpp"
+#include "chart/ground.hpp"
 
 namespace qmorph::chart {
 
@@ -15,9 +16,10 @@ std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edg
 std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sides);
 
 /// Moves nodes of interfaces, and those around, so that the interfaces are smooth. Where that has made their edges
-/// shorter than others, some of their nodes go. Creases stay; faces may get other numbers.
+/// shorter than others, some of their nodes go. Creases stay; faces may get other numbers. Where
+/// triangles are stretched all that is by their metric.
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
-                const space::Background& background);
+                const Ground& ground);
 
 /// Splits edges between parts in two so that one part at most has an odd number of sides, interfaces rather than
 /// creases. New edges are added to `interface` or `creases`, `division` and `opposite` are brought up to date. Marks

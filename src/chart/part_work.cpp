@@ -6,6 +6,7 @@
 
 #include "engine/convert_region.hpp"
 #include "engine/improve_region.hpp"
+#include "stretch/convert_stretched.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -31,16 +32,21 @@ Plane plane_of(const LaidOut& part, bool is_watched) {
 
 }  // namespace
 
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
-                          ConversionReport& report, Record& record) {
+PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, double allowed, Task task,
+                      ConversionReport& report, Record& record) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(part, options.observer != nullptr);
   const Region region = piece.region(chart.flat());
-  if (task == Task::convert) return qmorph::convert_region(region, plane, options, allowed, report, record);
+  if (task == Task::convert) {
+    if (ground.field)
+      if (auto quads = stretch::convert_stretched(region, plane, options, allowed, report, record))
+        return {std::move(quads->mesh), quads->in_chart};
+    return {convert_region(region, plane, options, allowed, report, record)};
+  }
   kernel::Mesh mesh = piece.mesh(chart.flat());
   const kernel::Mesh input = mesh;
   const ImproveStart start = start_improving(region, std::move(mesh), plane, options);
-  return improve_region(start, input, plane, options, allowed, report, record);
+  return {improve_region(start, input, plane, options, allowed, report, record)};
 }
 
 }  // namespace qmorph::chart

@@ -3,6 +3,7 @@
 /// The stages of the engine on parts of a region, each in its chart.
 
 #include "chart/divide.hpp"
+#include "chart/ground.hpp"
 #include "engine/record.hpp"
 #include "qmorph/report.hpp"
 
@@ -11,9 +12,14 @@ namespace qmorph::chart {
 /// Triangles that are converted, or triangles and quads that are improved.
 enum class Task { convert, improve };
 
+struct PartWork {
+  kernel::Mesh mesh;
+  bool is_stretched = false;  ///< made for stretched triangles: squares are not what its quads are to be
+};
+
 /// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was
 /// found
-kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
-                          ConversionReport& report, Record& record);
+PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, double allowed, Task task,
+                      ConversionReport& report, Record& record);
 
 }  // namespace qmorph::chart

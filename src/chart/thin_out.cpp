@@ -10,6 +10,7 @@
 #include "kernel/sort_unique.hpp"
 #include "smoothing/node_energy.hpp"
 #include "smoothing/smooth.hpp"
+#include "stretch/window.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -25,7 +26,14 @@ struct Merge {
   Index from, into;
 };
 
-double length(const SurfaceMesh& mesh, Index a, Index b) { return (mesh.points[a] - mesh.points[b]).norm(); }
+double length(const SurfaceMesh& mesh, const Ground& ground, Index a, Index b) {
+  const Eigen::Vector3d edge = mesh.points[b] - mesh.points[a];
+  if (!ground.field) return edge.norm();
+  const auto at = [&](Index v) {
+    return ground.field->length(ground.background.foot_on(mesh.on[v], mesh.points[v]), edge);
+  };
+  return 0.5 * (at(a) + at(b));
+}
 
 std::vector<char> outer_nodes(const SurfaceMesh& mesh, const std::vector<Edge>& creases) {
   std::vector<char> outer(mesh.points.size(), 0);
@@ -40,20 +48,21 @@ std::vector<char> outer_nodes(const SurfaceMesh& mesh, const std::vector<Edge>& 
 
 /// As many as edges are too many, the shortest first; no two are neighbours.
 std::vector<Merge> choose(const SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-                          const std::vector<Edge>& interface) {
+                          const std::vector<Edge>& interface, const Ground& ground) {
   std::vector<char> taken = outer_nodes(mesh, creases);
   std::vector<std::vector<Index>> ends(mesh.points.size());
   double wanted = 0;
   for (const auto& [a, b] : interface) {
     ends[a].push_back(b), ends[b].push_back(a);
-    wanted += 2 * length(mesh, a, b) / (size[a] + size[b]);
+    wanted += 2 * length(mesh, ground, a, b) / (size[a] + size[b]);
   }
   std::vector<std::pair<double, Merge>> merges;  // by the relative length of what two edges become
   for (Index v = 0; v < ends.size(); ++v) {
     if (ends[v].size() != 2 || taken[v] || mesh.fixed[v]) continue;
     const Index a = ends[v][0], b = ends[v][1];
-    const double joined = (length(mesh, v, a) + length(mesh, v, b)) / size[v];
-    if (joined <= kLongest) merges.push_back({joined, {v, length(mesh, v, a) < length(mesh, v, b) ? a : b}});
+    const double joined = (length(mesh, ground, v, a) + length(mesh, ground, v, b)) / size[v];
+    if (joined <= kLongest)
+      merges.push_back({joined, {v, length(mesh, ground, v, a) < length(mesh, ground, v, b) ? a : b}});
   }
   std::sort(merges.begin(), merges.end(), [](const auto& a, const auto& b) {
     return std::pair(a.first, a.second.from) < std::pair(b.first, b.second.from);
@@ -89,12 +98,12 @@ bool merge_in(kernel::Mesh& mesh, Index from, Index into) {
 
 }  // namespace
 
-std::vector<double> mean_edges(const SurfaceMesh& mesh) {
+std::vector<double> mean_edges(const SurfaceMesh& mesh, const Ground& ground) {
   std::vector<double> sum(mesh.points.size(), 0), count(mesh.points.size(), 0);
   for (const Face& face : mesh.faces)
     for (Index i = 0; i < degree(face); ++i) {
       const Index a = face[i], b = face[next_corner(face, i)];
-      const double l = length(mesh, a, b);
+      const double l = length(mesh, ground, a, b);
       sum[a] += l, sum[b] += l, ++count[a], ++count[b];
     }
   for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = count[v] > 0 ? sum[v] / count[v] : 0;
@@ -102,9 +111,9 @@ std::vector<double> mean_edges(const SurfaceMesh& mesh) {
 }
 
 std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-                            std::vector<Edge>& interface, const space::Background& background) {
+                            std::vector<Edge>& interface, const Ground& ground) {
   if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
-  const std::vector<Merge> merges = choose(mesh, size, creases, interface);
+  const std::vector<Merge> merges = choose(mesh, size, creases, interface, ground);
   if (merges.empty()) return {};
   std::vector<Index> goes_into(mesh.points.size(), kNone);
   std::vector<char> waiting(mesh.points.size(), 0);
@@ -119,7 +128,8 @@ std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, 
     std::vector<Reworked> results;
     for (const Window& window : windows) {
       const auto& [piece, chart] = *window.laid_out;
-      Reworked work{&piece, piece.mesh(chart.flat()), {}};
+      const auto stretched = stretch::StretchedWindow::of(*window.laid_out, ground);
+      Reworked work{&piece, stretched ? stretched->mesh() : piece.mesh(chart.flat()), {}};
       bool merged = false;
       for (Index v = 0; v < piece.points.size(); ++v) {
         const Index from = piece.vertex[v], into = goes_into[from];
@@ -132,7 +142,8 @@ std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, 
         changed.push_back(into);
       }
       if (!merged) continue;
-      work.lifted = lift(work.mesh, piece, chart, background);
+      if (stretched) stretched->bring_back(work.mesh);
+      work.lifted = lift(work.mesh, piece, chart, ground.background);
       results.push_back(std::move(work));
     }
     mesh = replace(mesh, results);

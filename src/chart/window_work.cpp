@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/window_work.hpp"
 
+#include <memory>
 #include <numeric>
 
 #include "cleanup/replace_cavities.hpp"
 #include "engine/allowance.hpp"
 #include "engine/pipeline.hpp"
+#include "stretch/window.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -28,10 +30,12 @@ struct Shapes {
 
 class WindowWork {
  public:
-  WindowWork(const LaidOut& window, const Options& options)
+  WindowWork(const LaidOut& window, const Options& options, const Ground& ground)
       : window_(window),
+        background_(ground.background),
         options_(options),
-        work_{&window.piece, window.piece.mesh(window.chart.flat()), {}},
+        stretched_(stretch::StretchedWindow::of(window, ground)),
+        work_{&window.piece, stretched_ ? stretched_->mesh() : window.piece.mesh(window.chart.flat()), {}},
         before_(work_.mesh),
         nodes_(window.piece.points.size()),
         allowed_(allowance(work_.mesh.face_slots())) {
@@ -56,18 +60,21 @@ class WindowWork {
     return true;
   }
 
-  std::optional<Reworked> result(double mean_loss, const space::Background& background) {
+  std::optional<Reworked> result(double mean_loss) {
     const Shapes after(work_.mesh);
     const auto& [piece, chart] = window_;
     if (after.bad > before_.bad || after.mean < before_.mean - mean_loss || folds_onto_itself(work_.mesh, piece))
       return {};
-    work_.lifted = lift(work_.mesh, piece, chart, background);
+    if (stretched_ && !stretched_->bring_back_straightened(work_.mesh)) return {};
+    work_.lifted = lift(work_.mesh, piece, chart, background_);
     return std::move(work_);
   }
 
  private:
   const LaidOut& window_;
+  const space::Background& background_;
   Options options_;
+  const std::unique_ptr<const stretch::StretchedWindow> stretched_;  ///< null if it is not
   Reworked work_;
   const Shapes before_;
   std::vector<Index> nodes_;
@@ -78,20 +85,18 @@ class WindowWork {
 
 }  // namespace
 
-std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
-                                     const space::Background& background) {
-  WindowWork work(window, options);
+std::optional<Reworked> clean_window(const LaidOut& window, const Options& options, const Ground& ground) {
+  WindowWork work(window, options, ground);
   constexpr double kAny = 1;
   work.clean();
-  return work.result(kAny, background);
+  return work.result(kAny);
 }
 
-std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
-                                         const space::Background& background) {
+std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground) {
   constexpr double kMeanLoss = 0.005;  // of the scaled Jacobian
-  WindowWork work(window, options);
+  WindowWork work(window, options, ground);
   if (!work.cancel()) return {};
-  return work.result(kMeanLoss, background);
+  return work.result(kMeanLoss);
 }
 
 }  // namespace qmorph::chart

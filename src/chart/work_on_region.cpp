@@ -30,8 +30,7 @@ constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
-using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options,
-                                         const space::Background& background);
+using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options, const Ground& ground);
 
 /// Where a try has failed, by triangle of the region.
 struct Distrust {
@@ -45,7 +44,12 @@ struct Distrust {
 class Worker {
  public:
   Worker(const CurvedRegion& region, const Options& options, double allowed, Task task, const Distrust& distrust)
-      : region_(region), options_(options), allowed_(allowed), task_(task), distrust_(distrust) {
+      : region_(region),
+        options_(options),
+        allowed_(allowed),
+        task_(task),
+        distrust_(distrust),
+        ground_{*region.background, may_stretch() ? region.stretch() : nullptr} {
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
@@ -108,8 +112,11 @@ class Worker {
  private:
   const space::Background& background() const { return *region_.background; }
 
+  /// What is refined here is as long as there were too few nodes.
+  bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
+
   bool improve() {
-    faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
+    faults_ = space::improve(mesh_, creases_, region_, stretched_, options_.smoothing);
     return !find_fault();
   }
 
@@ -155,7 +162,7 @@ class Worker {
   }
 
   void straighten_interfaces() {
-    straighten(mesh_, creases_, interface_, background());
+    straighten(mesh_, creases_, interface_, ground_);
     opposite_ = opposite_sides(mesh_);
     division_.is_cut = sides_on(mesh_, interface_);
     const std::vector<bool> is_crease = sides_on(mesh_, creases_);
@@ -173,6 +180,7 @@ class Worker {
     std::vector<Reworked> results(parts);
     std::vector<ConversionReport> reports(parts);
     std::vector<Record> records(parts);
+    std::vector<char> is_stretched(parts, 0);
     const parallel::SharedProgress shared(options_.progress, double(mesh_.faces.size()));
     std::vector<ProgressCallback> progress;
     for (const auto& part : division_.parts) progress.push_back(shared.part(double(part.size())));
@@ -184,7 +192,9 @@ class Worker {
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
-        results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p]), {}};
+        PartWork work = work_on_part(part, ground_, own, most, task_, reports[p], records[p]);
+        is_stretched[p] = work.is_stretched;
+        results[p] = {&part.piece, std::move(work.mesh), {}};
         results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
       } catch (const SurfaceError&) {
         has_no_chart_[p] = true;
@@ -205,8 +215,17 @@ class Worker {
     }
     for (std::size_t stage = 1; stage < work_.stages.size(); ++stage) work_.stages[stage] = at_stage(stage, records);
     std::erase_if(results, [](const Reworked& result) { return !result.piece; });
+    note_stretched(is_stretched);
     mesh_ = replace(mesh_, results);
     if (results.size() < parts) pair_up_the_rest();
+  }
+
+  void note_stretched(const std::vector<char>& is_part_stretched) {
+    if (!is_any(is_part_stretched)) return;
+    stretched_.assign(region_.region.triangles.size(), 0);
+    for (Index p = 0; p < is_part_stretched.size(); ++p)
+      if (is_part_stretched[p] && !has_no_chart_[p])
+        for (Index f : division_.parts[p]) stretched_[mesh_.near[f]] = 1;
   }
 
   void pair_up_the_rest() {
@@ -258,6 +277,7 @@ class Worker {
 
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+    const Ground ground{background(), stretched_.empty() ? nullptr : ground_.field};
     bool changed = false;
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
@@ -265,8 +285,8 @@ class Worker {
       const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
       if (windows.empty()) return changed;
       std::vector<std::optional<Reworked>> reworked(windows.size());
-      parallel::for_each_index(
-          windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, background()); });
+      parallel::for_each_index(windows.size(),
+                               [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, ground); });
       std::vector<Reworked> results;
       for (auto& window : reworked)
         if (window) results.push_back(std::move(*window));
@@ -281,6 +301,7 @@ class Worker {
   const double allowed_;
   const Task task_;
   const Distrust& distrust_;
+  const Ground ground_;
   RegionWork work_;
   SurfaceMesh mesh_;
   std::vector<Index> opposite_;
@@ -288,6 +309,7 @@ class Worker {
   Division division_;
   std::vector<char> has_no_chart_;    ///< by part
   std::vector<char> needs_cleaning_;  ///< by node: of parts without a chart
+  std::vector<char> stretched_;       ///< by triangle of the region; empty if none is
   space::Faults faults_;
 };
 

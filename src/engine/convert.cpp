@@ -27,8 +27,8 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
   const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
     try {
       if (options.layers)
-        if (auto mesh = stretch::convert_stretched(surface.regions[r], surface.plane, own, allowed, report, record))
-          return std::move(*mesh);
+        if (auto quads = stretch::convert_stretched(surface.regions[r], surface.plane, own, allowed, report, record))
+          return std::move(quads->mesh);
       return convert_region(surface.regions[r], surface.plane, own, allowed, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;

@@ -50,17 +50,17 @@ std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
 }  // namespace
 
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
-               const SmoothingOptions& options) {
+               const std::vector<char>& stretched, const SmoothingOptions& options) {
   const Background surface(region.points, region.region.triangles, barriers(region));
   {
-    MeshOnSurface view(mesh, creases, surface, *region.background);
+    MeshOnSurface view(mesh, creases, surface, *region.background, stretched);
     smooth(view, options);
     settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
     if (Folds folds(view, surface); find_poor(view, 0).empty()) return {{}, doubtful_faces(view, folds)};
   }
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
-  MeshOnSurface view(mesh, creases, surface, *region.background);
+  MeshOnSurface view(mesh, creases, surface, *region.background, stretched);
   smooth_near(view, options, raise_poor(view, options));
   Folds folds(view, surface);
   Faults faults;

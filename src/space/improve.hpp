@@ -17,8 +17,9 @@ struct Faults {
 
 /// Improves a mesh that was made in charts of a region, judged in space: it is smoothed, its poor elements are raised,
 /// and those that are turned over are mended. Boundary, fixed nodes and edges on creases stay. `creases` are edges of
-/// the mesh, lower node first, sorted.
+/// the mesh, lower node first, sorted. `stretched` marks triangles of the region, and may be empty: nodes there were
+/// smoothed for what quads are to be there, and move only where an element is poor.
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
-               const SmoothingOptions& options);
+               const std::vector<char>& stretched, const SmoothingOptions& options);
 
 }  // namespace qmorph::space

@@ -60,11 +60,12 @@ CornerNormals<N> MeshOnSurface::normals(Index f) const {
 }
 
 MeshOnSurface::MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
-                             const Background& whole)
+                             const Background& whole, std::span<const char> stretched)
     : mesh_(mesh),
       surface_(surface),
       whole_(whole),
       whole_normals_(whole),
+      stretched_(stretched),
       opposite_(chart::opposite_sides(mesh)),
       first_side_(mesh.points.size(), kNone),
       is_free_(mesh.points.size(), 0),

@@ -32,9 +32,10 @@ class MeshOnSurface {
 
   /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their
   /// nodes stay. Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases,
-  /// since those who judge a result later do not know of them.
+  /// since those who judge a result later do not know of them. `stretched`, by triangle, is where shapes are not to be
+  /// squares; it may be empty.
   MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
-                const Background& whole);
+                const Background& whole, std::span<const char> stretched = {});
 
   const Mesh& mesh() const { return mesh_; }
   const Background& surface() const { return surface_; }
@@ -44,6 +45,8 @@ class MeshOnSurface {
   Index faces() const { return Index(mesh_.faces.size()); }
   /// May move: not fixed, and inside.
   bool is_free(Index v) const { return is_free_[v]; }
+  /// And may be smoothed.
+  bool is_to_be_smoothed(Index v) const { return is_free_[v] && (stretched_.empty() || !stretched_[mesh_.on[v]]); }
   const Eigen::Vector3d& point(Index v) const { return mesh_.points[v]; }
   /// Unit normal of the surface there.
   const Eigen::Vector3d& normal(Index v) const { return normal_[v]; }
@@ -110,6 +113,7 @@ class MeshOnSurface {
   Mesh& mesh_;
   const Background &surface_, &whole_;
   const SurfaceNormals whole_normals_;
+  const std::span<const char> stretched_;
   std::vector<Index> opposite_;    ///< by side
   std::vector<Index> first_side_;  ///< by node: the one that has nothing before it, if there is a gap
   std::vector<char> is_free_;

@@ -113,8 +113,10 @@ std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& optio
     const std::size_t before = moved.size();
     for (const PoorFace& poor : find_poor(mesh, options.target_quality)) {
       const Index degree = chart::degree(mesh.mesh().faces[poor.face]);
+      const bool is_straight = poor.sine <= kStraightSine;
       for (Index i = 0; i < degree && compass.has_looks(); ++i)
-        if (const Index v = mesh.node(4 * poor.face + i); compass.raise(v, poor.sine <= kStraightSine))
+        if (const Index v = mesh.node(4 * poor.face + i);
+            (is_straight || mesh.is_to_be_smoothed(v)) && compass.raise(v, is_straight))
           moved.push_back(v);
     }
     if (moved.size() == before) break;

@@ -22,7 +22,7 @@ std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine);
 
 /// Moves the nodes of faces below `options.target_quality` one at a time to where the smallest sine around is largest,
 /// by compass search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first.
-/// Returns the nodes that moved.
+/// Where triangles are stretched, only nodes of invalid faces move. Returns the nodes that moved.
 std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options);
 
 /// Faces that are not valid are taken out with a few rings around, laid flat with the surface under them, and untangled

@@ -28,7 +28,7 @@ class Settling {
     constexpr int kPasses = 5;
     for (int pass = 0; pass < kPasses; ++pass)
       for (Index v = 0; v < mesh_.nodes(); ++v)
-        if (is_active_[v] && mesh_.is_free(v)) settle(v);
+        if (is_active_[v] && mesh_.is_to_be_smoothed(v)) settle(v);
   }
 
  private:

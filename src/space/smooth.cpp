@@ -84,7 +84,7 @@ class Smoother {
   bool relax_all() {
     bool any = false;
     for (Index v = 0; v < mesh_.nodes(); ++v) {
-      if (!active_[v] || !mesh_.is_free(v)) continue;
+      if (!active_[v] || !mesh_.is_to_be_smoothed(v)) continue;
       active_[v] = 0;
       if (relax(v) <= options_.move_tolerance) continue;
       any = true;
@@ -131,7 +131,7 @@ class Smoother {
     for (const auto& face : faces) take(face.second);
     const std::size_t count = nodes.size();
     for (std::size_t i = 0; i < count; ++i) mesh_.for_sides_around(nodes[i], [&](Index side) { take(side / 4); });
-    std::erase_if(nodes, [&](Index v) { return !mesh_.is_free(v); });
+    std::erase_if(nodes, [&](Index v) { return !mesh_.is_to_be_smoothed(v); });
     return nodes;
   }
 

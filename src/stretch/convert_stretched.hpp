@@ -12,10 +12,15 @@
 
 namespace qmorph::stretch {
 
+struct StretchedQuads {
+  kernel::Mesh mesh;
+  bool in_chart = true;  ///< made as stretched as the triangles; else what convert_region() makes was better
+};
+
 /// As convert_region(), in a chart in which the triangles are about as long as wide; where that loses sizes or has a
 /// poor quad, what convert_region() makes, if that is better. Nothing if the region is not stretched, has no such
 /// chart, or has no valid result in it. Cost where nothing is stretched: some nanoseconds a triangle.
-std::optional<kernel::Mesh> convert_stretched(const Region& region, const Plane& plane, const Options& options,
-                                              double allowed, ConversionReport& report, Record& record);
+std::optional<StretchedQuads> convert_stretched(const Region& region, const Plane& plane, const Options& options,
+                                                double allowed, ConversionReport& report, Record& record);
 
 }  // namespace qmorph::stretch

@@ -33,4 +33,11 @@ struct LogMetric {
 /// The metric in which the sides of a triangle, given as vectors around it, are all 1. Nothing of one without area.
 std::optional<LogMetric> metric_of(const Vec2& side1, const Vec2& side2, const Vec2& side3);
 
+/// Whether a triangle, given the sum of its squared sides and twice its area, is stretched by more than the ratio.
+inline bool is_stretched_by(double ratio, double squares, double twice_area) {
+  // The trace, and the determinant times four, of what has the squared stretches for eigenvalues.
+  const double least = (ratio + 1 / ratio) * (ratio + 1 / ratio);
+  return squares * squares > 3 * least * twice_area * twice_area;
+}
+
 }  // namespace qmorph::stretch

@@ -17,6 +17,13 @@ MetricField::MetricField(const space::Background& surface) : surface_(surface), 
   for (int pass = 0; pass < kPasses; ++pass) smooth();
 }
 
+MetricField::MetricField(const space::Background& surface, const std::vector<LogMetric>& metrics)
+    : surface_(surface), nodes_(surface.points().size()) {
+  add_axes();
+  for (Index t = 0; t < surface.triangles(); ++t)
+    for (Index v : surface.corners(t)) nodes_[v].metric = metrics[v], ++nodes_[v].triangles;
+}
+
 /// In a coordinate plane the axes are those of the coordinates.
 void MetricField::add_axes() {
   for (Index t = 0; t < surface_.triangles(); ++t)
@@ -52,6 +59,15 @@ LogMetric MetricField::seen_from(const Node& a, const Node& b) {
   return {b.metric.scale, angle == 0 ? b.metric.turn : rotated(b.metric.turn, 2 * angle)};
 }
 
+LogMetric MetricField::seen(Index triangle, const Vector3d& weights, const Vector3d& axis_u,
+                            const Vector3d& axis_v) const {
+  Node here;
+  here.axis_u = axis_u, here.axis_v = axis_v;
+  LogMetric sum;
+  for (int i = 0; i < 3; ++i) sum += seen_from(here, nodes_[surface_.corners(triangle)[std::size_t(i)]]) * weights[i];
+  return sum;
+}
+
 /// To the mean over the triangles around each node.
 void MetricField::smooth() {
   std::vector<LogMetric> sums(nodes_.size());
@@ -73,6 +89,15 @@ double MetricField::length(Index from, Index to) const {
   const Vec2 flat(edge.dot(a.axis_u), edge.dot(a.axis_v));
   const double seen2 = flat.squaredNorm();
   return seen2 > 0 ? (mean * 0.5).length(flat) * std::sqrt(edge.squaredNorm() / seen2) : 0;
+}
+
+double MetricField::length(const space::Foot& at, const Vector3d& vector) const {
+  const double size = vector.norm();
+  const Vector3d& normal = surface_.normal(at.triangle);
+  const Vector3d along = vector - vector.dot(normal) * normal;
+  if (!(along.squaredNorm() > 0)) return 0;
+  const Vector3d axis = along.normalized();
+  return seen(at.triangle, at.weights, axis, normal.cross(axis)).length(Vec2(size, 0));
 }
 
 std::vector<double> MetricField::side_lengths() const {
@@ -120,6 +145,22 @@ std::optional<LogMetric> MetricField::uniform() const {
   if (!(spread <= std::log(kMostSpread) * count)) return {};
   mean.scale = 0;
   return mean;
+}
+
+bool has_inside(std::size_t triangles, std::size_t nodes, std::size_t outer) {
+  constexpr std::size_t kFewest = 100;  // triangles
+  constexpr double kLeast = 0.25;       // of all nodes
+  return triangles >= kFewest && double(nodes) - double(outer) >= kLeast * double(nodes);
+}
+
+bool may_be_stretched(const space::Background& surface) {
+  std::size_t count = 0;
+  for (Index t = 0; t < surface.triangles(); ++t) {
+    const Vector3d ab = surface.corner(t, 1) - surface.corner(t, 0), bc = surface.corner(t, 2) - surface.corner(t, 1),
+                   ca = surface.corner(t, 0) - surface.corner(t, 2);
+    count += is_stretched_by(kStretched, ab.squaredNorm() + bc.squaredNorm() + ca.squaredNorm(), ab.cross(bc).norm());
+  }
+  return double(count) >= kStretchedShare * double(surface.triangles());
 }
 
 }  // namespace qmorph::stretch

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Random domains whose triangles are stretched, all alike or around a circle: what the quads are worth is measured where
-// nothing is stretched.
+// Random domains whose triangles are stretched, all alike or around a circle: what the quads are worth is measured
+// where nothing is stretched. The same on cylinders.
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "qmorph/convert.hpp"
@@ -14,6 +15,7 @@
 #include "quality/directed_size.hpp"
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
+#include "support/rng.hpp"
 #include "support/seeds.hpp"
 
 using namespace qmorph;
@@ -67,9 +69,48 @@ Patch mapped(Patch patch, const std::function<Vector3d(const Vector3d&)>& map) {
   return patch;
 }
 
-bool has_turned_over(const Patch& patch) {
+/// Onto a cylinder of this radius around the x axis, and back.
+Map rolling(double ratio, double radius) {
+  const Map flat = stretching(ratio);
+  return {[=](const Vector3d& p) {
+            const Vector3d q = flat.to(p);
+            return Vector3d(q.x(), radius * std::sin(q.y() / radius), radius * std::cos(q.y() / radius));
+          },
+          [=](const Vector3d& p) {
+            return flat.from({p.x(), radius * std::atan2(p.y(), p.z()), 0});
+          }};
+}
+
+double largest(const Patch& patch, Eigen::Index axis) {
+  double most = 0;
+  for (const Vector3d& p : patch.points) most = std::max(most, std::abs(p[axis]));
+  return most;
+}
+
+/// Long sides run along the cylinder, which is as round as the domain is wide.
+Map rolled_along(const Patch& patch, double ratio) { return rolling(ratio, largest(patch, 1) / ratio); }
+
+/// Long sides run around the cylinder, which is so large that they lie near it in comparison with their triangles.
+Map rolled_across(const Patch& patch, double ratio) {
+  constexpr double kNear = 0.1;  // of the width of a triangle
+  double longest2 = 0;
   for (const auto& [a, b, c] : patch.triangles)
-    if ((patch.points[b] - patch.points[a]).cross(patch.points[c] - patch.points[a]).z() <= 0) return true;
+    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      longest2 = std::max(longest2, (patch.points[p] - patch.points[q]).squaredNorm());
+  const double radius = ratio * std::max(largest(patch, 0), std::sqrt(longest2) * ratio / (8 * kNear));
+  const Map along = rolling(1 / ratio, radius);
+  const auto turned = [=](const Vector3d& p) { return Vector3d(-p.y(), p.x(), 0); };
+  return {[=](const Vector3d& p) { return Vector3d(along.to(turned(p)) / ratio); },
+          [=](const Vector3d& p) {
+            const Vector3d q = along.from(p * ratio);
+            return Vector3d(q.y(), -q.x(), 0);
+          }};
+}
+
+bool has_turned_over(const Patch& patch) {
+  const bool is_flat = largest(patch, 2) == 0;
+  for (const auto& [a, b, c] : patch.triangles)
+    if (is_flat && (patch.points[b] - patch.points[a]).cross(patch.points[c] - patch.points[a]).z() <= 0) return true;
   return false;
 }
 
@@ -112,6 +153,28 @@ struct Pools {
   }
 };
 
+/// A tube around the z axis of rows of equal triangles, their nodes jittered a little; no node inside is special.
+Patch stretched_tube(int around, int along, double width, double height) {
+  Rng rng(1);
+  Patch patch;
+  const double radius = around * width / (2 * std::numbers::pi), row = height * std::sqrt(3.0) / 2;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double jitter = j > 0 && j < along ? 0.2 : 0;
+      const double u = i + 0.5 * (j % 2) + rng.between(-jitter, jitter), v = j + rng.between(-jitter, jitter);
+      const double angle = u * width / radius;
+      patch.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), v * row);
+    }
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const auto node = [&](int k, int level) { return Index(level * around + (k + around) % around); };
+      const int shift = j % 2;  // of the next row against this one
+      patch.triangles.push_back({node(i, j), node(i + 1, j), node(i + shift, j + 1)});
+      patch.triangles.push_back({node(i, j), node(i + shift, j + 1), node(i + shift - 1, j + 1)});
+    }
+  return patch;
+}
+
 }  // namespace
 
 TEST_CASE("stretched domains become what they become unstretched, stretched") {
@@ -148,12 +211,48 @@ TEST_CASE("domains that are stretched around a circle become quads that are stre
   CHECK(double(pools.kept) > 0.9 * double(pools.domains));
 }
 
+TEST_CASE("stretched domains that are rolled up become what they become flat") {
+  Pools flat, bent;
+  for (std::uint64_t seed = 0; seed < seeds(150, 40); ++seed) {
+    const auto patch = large_domain(seed);
+    if (!patch) continue;
+    CAPTURE(seed);
+    const double ratio = std::array{5.0, 10.0, 20.0}[seed % 3];
+    flat.add(*patch, stretching(ratio));
+    bent.add(*patch, seed % 2 ? rolled_along(*patch, ratio) : rolled_across(*patch, ratio));
+  }
+  REQUIRE(bent.domains > 5);
+  CHECK(bent.stretched.mean() > 0.97 * flat.stretched.mean());
+  CHECK(bent.stretched.irregular_share() < 1.2 * flat.stretched.irregular_share() + 0.004);
+  CHECK(bent.stretched.quads == doctest::Approx(flat.stretched.quads).epsilon(0.05));
+  CHECK(bent.kept + bent.domains / 10 >= flat.kept);
+}
+
+TEST_CASE("a tube without a line keeps how it is stretched, along it and around") {
+  struct Case {
+    int around, along;
+    double width, height;  // of a triangle
+  };
+  for (const Case& tube : {Case{120, 20, 0.3, 3}, Case{70, 100, 3, 0.3}}) {
+    const Patch patch = stretched_tube(tube.around, tube.along, tube.width, tube.height);
+    const QuadMesh mesh = convert(patch, Options()).mesh;
+    const auto broken = broken_invariants(patch, mesh);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    CHECK(mesh.triangles.empty());
+    const Quality quality = measure(mesh);
+    CHECK(quality.scaled_jacobian_mean > 0.9);
+    CHECK(double(quality.irregular_nodes) < 0.01 * double(quality.interior_nodes));
+    CHECK(largest_ratio(median(directed_sizes(patch, mesh.points, mesh.quads))) < 1.15);
+  }
+}
+
 TEST_CASE("stretched domains: one thread and two make the same bytes") {
   for (std::uint64_t seed = 0; seed < seeds(40, 20); ++seed) {
     auto patch = large_domain(seed);
     if (!patch) continue;
     patch = mapped(*patch, bending(5, 2).to);
     if (has_turned_over(*patch)) continue;
+    if (seed % 2) patch = mapped(*patch, rolled_across(*patch, 1).to);
     Options options;
     options.threads = 1;
     const QuadMesh one = convert(*patch, options).mesh;

@@ -117,7 +117,7 @@ TEST_CASE("space: elements that are turned over are found, worst first, and turn
       for (std::size_t i = 0; i + 1 < poor.size(); ++i) CHECK(poor[i].sine <= poor[i + 1].sine);
     }
     SurfaceMesh mended = sheet.mesh;
-    CHECK(space::improve(mended, {}, sheet.region(), SmoothingOptions()).turned.empty());
+    CHECK(space::improve(mended, {}, sheet.region(), {}, SmoothingOptions()).turned.empty());
     SurfaceMesh copy = mended;
     const MeshOnSurface view(copy, {}, *sheet.region().background, *sheet.region().background);
     CHECK(space::find_poor(view, 0.5).empty());
@@ -169,7 +169,7 @@ TEST_CASE("space: nodes on creases stay, and nodes beside them stay on their sid
       }
   }
   SurfaceMesh result = sheet.mesh;
-  CHECK(space::improve(result, sheet.region().creases, sheet.region(), SmoothingOptions()).turned.empty());
+  CHECK(space::improve(result, sheet.region().creases, sheet.region(), {}, SmoothingOptions()).turned.empty());
   for (Index j = 0; j <= 10; ++j)
     for (Index i = 0; i <= 10; ++i) {
       const Vector3d& p = result.points[sheet.node(i, j)];

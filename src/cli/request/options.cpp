@@ -62,7 +62,7 @@ constexpr std::array kOptions = {
               "turn elements so that neighbours agree; counterclockwise where the model is flat",
               [](Request& r, const Value&) { r.orient = true; }},
     OurOption{"layers", "--layers on|off", once,
-              "on (default): keep rows of triangles along walls, grids, and how triangles of a plane are stretched",
+              "on (default): keep rows of triangles along walls, grids, and how triangles are stretched",
               [](Request& r, const Value& v) { r.layers = is_on(v); }},
     OurOption{"crease", "--crease X", once,
               "on curved surfaces edges sharper than X degrees stay (default 40; 180: none)",
