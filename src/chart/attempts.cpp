@@ -56,13 +56,14 @@ struct Worth {
 
 RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, double allowed, Task task) {
   const std::size_t size = region.region.triangles.size();
+  Effort effort{allowed};
   if (task != Task::convert || size > 2 * options.retry_triangles)
-    return work_on_region(region, options, allowed, task);
-  RegionWork best = work_on_region(region, options, allowed, task);
+    return work_on_region(region, options, effort, task);
+  RegionWork best = work_on_region(region, options, effort, task);
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {
-    if (worth.irregular < kFewIrregular) break;
-    std::optional<RegionWork> work = try_region(region, variant, allowed, task);
+    if (worth.irregular < kFewIrregular || !effort.has_more_for(size)) break;
+    std::optional<RegionWork> work = try_region(region, variant, effort, task);
     if (!work) continue;
     const Worth other(work->mesh, size);
     if (worth.sum >= other.sum) continue;

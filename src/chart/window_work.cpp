@@ -56,13 +56,16 @@ class WindowWork {
     return true;
   }
 
-  std::optional<Reworked> result(double mean_loss, const space::Background& background) {
+  std::size_t work() const { return work_.mesh.work(); }
+
+  WindowResult result(double mean_loss, const space::Background& background) {
     const Shapes after(work_.mesh);
     const auto& [piece, chart] = window_;
+    const std::size_t work = this->work();
     if (after.bad > before_.bad || after.mean < before_.mean - mean_loss || folds_onto_itself(work_.mesh, piece))
-      return {};
+      return {{}, work};
     work_.lifted = lift(work_.mesh, piece, chart, background);
-    return std::move(work_);
+    return {std::move(work_), work};
   }
 
  private:
@@ -78,19 +81,17 @@ class WindowWork {
 
 }  // namespace
 
-std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
-                                     const space::Background& background) {
+WindowResult clean_window(const LaidOut& window, const Options& options, const space::Background& background) {
   WindowWork work(window, options);
   constexpr double kAny = 1;
   work.clean();
   return work.result(kAny, background);
 }
 
-std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
-                                         const space::Background& background) {
+WindowResult cancel_in_window(const LaidOut& window, const Options& options, const space::Background& background) {
   constexpr double kMeanLoss = 0.005;  // of the scaled Jacobian
   WindowWork work(window, options);
-  if (!work.cancel()) return {};
+  if (!work.cancel()) return {{}, work.work()};
   return work.result(kMeanLoss, background);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Improves the mesh in a window of a surface. Nothing is returned if it was better before.
+/// Improves the mesh in a window of a surface.
 
 #include <optional>
 
@@ -10,12 +10,15 @@
 
 namespace qmorph::chart {
 
+struct WindowResult {
+  std::optional<Reworked> better;  ///< nothing if it was better before
+  std::size_t work = 0;            ///< as kernel::Mesh::work() counts it, in either case
+};
+
 /// Irregular nodes cancel, and the rest is smoothed.
-std::optional<Reworked> clean_window(const LaidOut& window, const Options& options,
-                                     const space::Background& background);
+WindowResult clean_window(const LaidOut& window, const Options& options, const space::Background& background);
 
 /// Cancels irregular nodes that lie so far apart that looking for them everywhere would cost too much.
-std::optional<Reworked> cancel_in_window(const LaidOut& window, const Options& options,
-                                         const space::Background& background);
+WindowResult cancel_in_window(const LaidOut& window, const Options& options, const space::Background& background);
 
 }  // namespace qmorph::chart

@@ -30,8 +30,7 @@ constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
-using Work = std::optional<Reworked> (*)(const LaidOut& window, const Options& options,
-                                         const space::Background& background);
+using Work = WindowResult (*)(const LaidOut& window, const Options& options, const space::Background& background);
 
 /// Where a try has failed, by triangle of the region.
 struct Distrust {
@@ -44,8 +43,8 @@ struct Distrust {
 /// One try.
 class Worker {
  public:
-  Worker(const CurvedRegion& region, const Options& options, double allowed, Task task, const Distrust& distrust)
-      : region_(region), options_(options), allowed_(allowed), task_(task), distrust_(distrust) {
+  Worker(const CurvedRegion& region, const Options& options, Effort& effort, Task task, const Distrust& distrust)
+      : region_(region), options_(options), effort_(effort), task_(task), distrust_(distrust) {
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
@@ -110,6 +109,7 @@ class Worker {
 
   bool improve() {
     faults_ = space::improve(mesh_, creases_, region_, options_.smoothing);
+    effort_.spent += faults_.work;
     return !find_fault();
   }
 
@@ -180,7 +180,7 @@ class Worker {
       if (shared.is_over()) return;
       Options own = options_;
       own.progress = progress[p];
-      const double most = part_of(allowed_, division_.parts[p].size(), mesh_.faces.size(), parts);
+      const double most = part_of(effort_.allowed, division_.parts[p].size(), mesh_.faces.size(), parts);
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
@@ -205,6 +205,7 @@ class Worker {
     }
     for (std::size_t stage = 1; stage < work_.stages.size(); ++stage) work_.stages[stage] = at_stage(stage, records);
     std::erase_if(results, [](const Reworked& result) { return !result.piece; });
+    for (const Reworked& result : results) effort_.spent += result.mesh.work();
     mesh_ = replace(mesh_, results);
     if (results.size() < parts) pair_up_the_rest();
   }
@@ -264,12 +265,14 @@ class Worker {
       opposite_ = opposite_sides(mesh_);
       const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
       if (windows.empty()) return changed;
-      std::vector<std::optional<Reworked>> reworked(windows.size());
+      std::vector<WindowResult> reworked(windows.size());
       parallel::for_each_index(
           windows.size(), [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, background()); });
       std::vector<Reworked> results;
-      for (auto& window : reworked)
-        if (window) results.push_back(std::move(*window));
+      for (WindowResult& window : reworked) {
+        effort_.spent += window.work;
+        if (window.better) results.push_back(std::move(*window.better));
+      }
       changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
@@ -278,7 +281,7 @@ class Worker {
 
   const CurvedRegion& region_;
   Options options_;
-  const double allowed_;
+  Effort& effort_;
   const Task task_;
   const Distrust& distrust_;
   RegionWork work_;
@@ -305,7 +308,12 @@ struct Best {
 
 }  // namespace
 
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+bool Effort::has_more_for(std::size_t triangles) const {
+  constexpr double kTries = 8;
+  return double(spent) < kTries * allowance(triangles);
+}
+
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
   constexpr int kTries = 4;
   constexpr std::size_t kSmall = 5000;  // triangles, so that a doubtful element is worth another try
   constexpr std::size_t kFew = 50;      // so that it is worth all of them
@@ -315,8 +323,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
   Best best;
   std::size_t fewest_turned = std::numeric_limits<std::size_t>::max();
   for (int i = 1; i <= kTries; ++i) {
-    distrust.all = distrust.all || i == kTries;
-    Worker worker(region, options, allowed, task, distrust);
+    distrust.all = distrust.all || i == kTries || !effort.has_more_for(size);
+    Worker worker(region, options, effort, task, distrust);
     if (worker.run()) {
       const bool is_new = worker.learn(distrust);
       best.consider(worker);
@@ -336,7 +344,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
   if (task == Task::convert && size <= options.retry_triangles && (best.work || fewest_turned <= kMostTurned)) {
     const Distrust nothing;
     for (const Options& variant : few_front_variants(options)) {
-      Worker worker(region, variant, allowed, task, nothing);
+      if (!effort.has_more_for(size)) break;
+      Worker worker(region, variant, effort, task, nothing);
       if (!worker.run()) continue;
       best.consider(worker);
       if (best.doubtful == 0 || size > kFew) return std::move(*best.work);
@@ -347,15 +356,16 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, do
   constexpr std::size_t kNotMany = 2000;
   const int refinings = size <= kFew ? 3 : size <= kNotMany && !best.work ? 1 : 0;
   Distrust nodes;
-  while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0))
-    if (Worker worker(region, options, allowed, task, nodes); worker.run()) best.consider(worker);
+  while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
+         effort.has_more_for(size))
+    if (Worker worker(region, options, effort, task, nodes); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
   throw *first;
 }
 
-std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
   const Distrust nothing;
-  Worker worker(region, options, allowed, task, nothing);
+  Worker worker(region, options, effort, task, nothing);
   if (!worker.run() || worker.doubtful() > 0) return {};
   return worker.result();
 }

@@ -20,13 +20,21 @@ struct RegionWork {
   std::vector<std::unique_ptr<FrontObserver>> fronts;
 };
 
+/// What may be spent on a region.
+struct Effort {
+  double allowed = 0;     ///< work in the charts of a try, more or less (engine/allowance.hpp)
+  std::size_t spent = 0;  ///< work of all tries so far, in space as well
+
+  /// Whether another try is worth its work: not where tries take long because nothing about the surface is right.
+  bool has_more_for(std::size_t triangles) const;
+};
+
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
-/// and mends in space, for about as much work as is allowed (engine/allowance.hpp). What fails, or is doubtful, is
-/// tried again in other ways.
+/// and mends in space. What fails, or is doubtful, is tried again in other ways.
 /// \throws SurfaceError
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task);
 
 /// The same, tried once: nothing if that fails or is doubtful.
-std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, double allowed, Task task);
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task);
 
 }  // namespace qmorph::chart

@@ -51,13 +51,17 @@ std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
 
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
                const SmoothingOptions& options) {
+  constexpr std::size_t kWorkOfLook = 150;
+  std::size_t looks = 0;
   const Background surface(region.points, region.region.triangles, barriers(region));
   {
     MeshOnSurface view(mesh, creases, surface, *region.background);
     smooth(view, options);
     settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
-    if (Folds folds(view, surface); find_poor(view, 0).empty()) return {{}, doubtful_faces(view, folds)};
+    const bool is_valid = find_poor(view, 0).empty();
+    looks += view.exact_looks();
+    if (Folds folds(view, surface); is_valid) return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
   }
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
   MeshOnSurface view(mesh, creases, surface, *region.background);
@@ -67,6 +71,7 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
   for (const PoorFace& poor : find_poor(view, 0))
     if (!folds.are_under(poor.face)) faults.turned.push_back(poor.face);
   if (faults.turned.empty()) faults.doubtful = doubtful_faces(view, folds);
+  faults.work = kWorkOfLook * (looks + view.exact_looks());
   return faults;
 }
 

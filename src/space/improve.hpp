@@ -13,6 +13,7 @@ namespace qmorph::space {
 struct Faults {
   std::vector<Index> turned;    ///< they stay turned over, the worst first
   std::vector<Index> doubtful;  ///< valid, but it is nearly chance that they are
+  std::size_t work = 0;         ///< that it took, above all to look closely; as kernel::Mesh::work() counts it
 };
 
 /// Improves a mesh that was made in charts of a region, judged in space: it is smoothed, its poor elements are raised,

@@ -178,6 +178,7 @@ double MeshOnSurface::sure_sine(Index f) const {
 }
 
 double MeshOnSurface::exact_sine(Index f) const {
+  ++exact_looks_;
   const Face& face = mesh_.faces[f];
   const auto sine = [&](const auto& p) { return scaled_jacobian(p, whole_normals_.of(p, mesh_.near[f])); };
   return chart::degree(face) == 4 ? sine(corners<4>(face)) : sine(corners<3>(face));

@@ -76,6 +76,8 @@ class MeshOnSurface {
   /// The one that counts, by the surface's normals near the corners.
   double exact_sine(Index face) const;
   double exact_sine_around(Index v) const;
+  /// How often exact_sine() was asked for, which costs much more than anything else here.
+  std::size_t exact_looks() const { return exact_looks_; }
   /// smallest_rise() by the same normals.
   double exact_rise(Index face) const;
 
@@ -115,6 +117,7 @@ class MeshOnSurface {
   std::vector<char> is_free_;
   std::vector<char> is_on_crease_;  ///< by node
   std::vector<Eigen::Vector3d> normal_;
+  mutable std::size_t exact_looks_ = 0;
 };
 
 }  // namespace qmorph::space

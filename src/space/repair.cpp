@@ -49,9 +49,11 @@ std::pair<Vector3d, Vector3d> tangents(const Vector3d& normal) {
 
 class Compass {
  public:
-  Compass(MeshOnSurface& mesh, std::size_t looks) : mesh_(mesh), looks_(looks) {}
+  /// `looks`: places to try; `exact_looks`: times that an element is looked at closely.
+  Compass(MeshOnSurface& mesh, std::size_t looks, std::size_t exact_looks)
+      : mesh_(mesh), looks_(looks), most_exact_(mesh.exact_looks() + exact_looks) {}
 
-  bool has_looks() const { return looks_ > 0; }
+  bool has_looks() const { return looks_ > 0 && mesh_.exact_looks() < most_exact_; }
 
   /// True if the node moved.
   bool raise(Index v, bool exact) {
@@ -95,6 +97,7 @@ class Compass {
 
   MeshOnSurface& mesh_;
   std::size_t looks_;
+  const std::size_t most_exact_;
 };
 
 }  // namespace
@@ -114,8 +117,9 @@ std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine) {
 
 std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options) {
   constexpr int kPasses = 3;
-  constexpr std::size_t kFewLooks = 20'000;
-  Compass compass(mesh, kFewLooks + 2 * std::size_t(mesh.faces()));
+  constexpr std::size_t kFewLooks = 20'000, kFewExact = 2'000, kExactEach = 40;
+  const std::size_t faces = mesh.faces();
+  Compass compass(mesh, kFewLooks + 2 * faces, kFewExact + kExactEach * faces);
   std::vector<Index> moved;
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::size_t before = moved.size();

@@ -21,7 +21,8 @@ struct PoorFace {
 std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine);
 
 /// Moves the nodes of faces below `options.target_quality` one at a time to where the smallest sine around is largest,
-/// by compass search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first.
+/// by compass search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first,
+/// and of close ones (`MeshOnSurface::exact_sine`) a smaller number.
 /// Returns the nodes that moved.
 std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options);
 

@@ -9,6 +9,8 @@
 
 #include "chart/creases.hpp"
 #include "chart/fixture.hpp"
+#include "chart/work_on_region.hpp"
+#include "engine/allowance.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/error.hpp"
 #include "qmorph/quality.hpp"
@@ -218,6 +220,25 @@ TEST_CASE("curved: an odd boundary leaves one triangle, and creases change nothi
     const QuadMesh mesh = convert(patch).mesh;
     check(patch, mesh);
     CHECK(mesh.triangles.size() == count.odd);
+  }
+}
+
+TEST_CASE("curved: tries end in time on what overlaps itself everywhere") {
+  constexpr double kMostTries = 12;  // 8, and the last of them as a whole
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    Rng rng(seed);
+    Patch patch = plate(6, 4);
+    for (Vector3d& p : patch.points)
+      for (double& x : p) x += rng.between(-3, 3);
+    for (const chart::CurvedRegion& region : chart::curved_regions(patch, 0.7)) {
+      const std::size_t size = region.region.triangles.size();
+      chart::Effort effort{allowance(size)};
+      try {
+        chart::work_on_region(region, Options(), effort, chart::Task::convert);
+      } catch (const SurfaceError&) {
+      }
+      CHECK(double(effort.spent) < kMostTries * allowance(size));
+    }
   }
 }
 

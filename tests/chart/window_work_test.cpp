@@ -65,7 +65,7 @@ TEST_CASE("windows: irregular nodes cancel, quads stay valid, and the rim of a w
     std::vector<Reworked> done;
     for (const Window& window : windows) {
       const Piece& piece = window.laid_out->piece;
-      auto work = cancel_in_window(*window.laid_out, Options(), *region.background);
+      auto work = cancel_in_window(*window.laid_out, Options(), *region.background).better;
       if (!work) continue;
       for (Index f = 0; f < work->mesh.face_slots(); ++f)
         if (work->mesh.is_live_face(f)) CHECK(work->mesh.is_valid_face(f));

@@ -181,7 +181,7 @@ Patch damaged_patch(std::span<const std::uint8_t> bytes) {
   Patch patch = grid(record(0));
   for (std::size_t at = kRecord; at + kRecord <= bytes.size() && !patch.triangles.empty(); at += kRecord)
     damage(patch, record(at));
-  // In space overlaps are allowed, and may take seconds; in a plane they are refused.
+  // In space overlaps are allowed, and take long for their size; in a plane they are refused.
   if (!why_unsound(patch) && (shape_of(record(0)) != Shape::square || is_crumpled(patch) || is_nearly_flat(patch)))
     for (Vector3d& p : patch.points) p.z() = 0;
   return patch;
