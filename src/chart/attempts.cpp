@@ -57,8 +57,7 @@ struct Worth {
 RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, double allowed, Task task) {
   const std::size_t size = region.region.triangles.size();
   Effort effort{allowed};
-  if (task != Task::convert || size > 2 * options.retry_triangles)
-    return work_on_region(region, options, effort, task);
+  if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, effort, task);
   RegionWork best = work_on_region(region, options, effort, task);
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {

@@ -8,7 +8,10 @@
 namespace qmorph::cleanup {
 
 Worth worth_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
-  const std::vector<Index> faces = topology::faces_around(mesh, nodes);
+  return worth_of(mesh, topology::faces_around(mesh, nodes));
+}
+
+Worth worth_of(const kernel::Mesh& mesh, const std::vector<Index>& faces) {
   Worth worth;
   worth.faces = faces.size();
   double sum = 0;

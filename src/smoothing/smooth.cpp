@@ -290,7 +290,9 @@ void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::B
     Passes(mesh, options).run(nodes, budget);
 }
 
-bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings) {
+bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings,
+                 const std::function<bool(int)>& goes_on) {
+  if (goes_on && !goes_on(0)) return false;
   std::vector<Index> around(nodes.begin(), nodes.end());
   for (int ring = 0; ring <= rings; ++ring) {
     sort_unique(around);
@@ -312,6 +314,10 @@ bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<
     if (!untangle(mesh, around, options.untangling_sweeps)) return false;
   Star star;
   for (int pass = 0; pass < options.iterations; ++pass) {
+    if (goes_on && pass > 0 && !goes_on(pass)) {
+      mesh.add_work(star.work());
+      return false;
+    }
     double moved = 0;
     for (Index v : around) moved = std::max(moved, relax_node(mesh, v, star));
     if (moved < options.move_tolerance) break;

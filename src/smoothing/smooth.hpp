@@ -2,6 +2,7 @@
 #pragma once
 /// Smoothing and repair: nodes move, the topology stays.
 
+#include <functional>
 #include <span>
 
 #include "kernel/budget.hpp"
@@ -18,8 +19,10 @@ class Star;
 void smooth(kernel::Mesh& mesh, const SmoothingOptions& options, const kernel::Budget& budget = {});
 
 /// The same for a few nodes and `rings` rings of neighbours around them. Returns false if an element near them is
-/// not valid in the end; what has been moved by then has to be rolled back by the caller.
-bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings);
+/// not valid in the end; what has been moved by then has to be rolled back by the caller. Before each pass it asks
+/// `goes_on(pass)`, if there is one, and gives up (false) if not; before pass 0 elements may be turned over.
+bool smooth_near(kernel::Mesh& mesh, const SmoothingOptions& options, std::span<const Index> nodes, int rings,
+                 const std::function<bool(int)>& goes_on = {});
 
 /// One Newton step of the shape energy at v, shortened until the energy falls. Returns how far v moved,
 /// relative to one of its edges; 0 if v is fixed.
