@@ -3,7 +3,6 @@
 /// One change of connectivity, judged by what the mesh is worth after a guarded relaxation.
 
 #include <functional>
-#include <type_traits>
 #include <vector>
 
 #include "cleanup/operations.hpp"
@@ -25,7 +24,11 @@ Worth best_worth_around(const kernel::Mesh& mesh, const std::vector<Index>& node
 /// The faces by their scaled Jacobians, the smallest first.
 std::vector<Index> worst_first(const kernel::Mesh& mesh, std::vector<Index> faces);
 
-struct AlwaysHope {};
+/// When a relaxation of so many faces or more is ended before a pass, because it would be for nothing.
+struct GivingUp {
+  std::size_t least_faces;
+  bool (*is_hopeless)(const Worth& before, const Worth& now, int pass);  ///< passes done
+};
 
 /// Nodes of the faces that a candidate starts from.
 std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candidate);
@@ -34,10 +37,10 @@ std::vector<Index> nodes_near(const kernel::Mesh& mesh, const Candidate& candida
 /// result, relaxes `rings` rings around, and keeps all that if `accept(worth before, after)`. Otherwise the mesh is
 /// as it was. `near` are the nodes by which the state before is judged; `nodes` gets those around after. What is worth
 /// more than something that `accept` takes, it takes as well: so where not even best_worth_around() is accepted,
-/// nothing is relaxed. `is_hopeless(worth before, worth now, pass)` may end it before each pass of the relaxation.
-template <class Edit, class Accept, class Hopeless = AlwaysHope>
+/// nothing is relaxed. Without `giving_up` each relaxation is done to its end.
+template <class Edit, class Accept>
 bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
-             std::vector<Index>& nodes, const Edit& edit, const Accept& accept, const Hopeless& is_hopeless = {});
+             std::vector<Index>& nodes, const Edit& edit, const Accept& accept, const GivingUp* giving_up = nullptr);
 
 }  // namespace qmorph::cleanup
 
@@ -46,9 +49,9 @@ bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, co
 
 namespace qmorph::cleanup {
 
-template <class Edit, class Accept, class Hopeless>
+template <class Edit, class Accept>
 bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, const std::vector<Index>& near,
-             std::vector<Index>& nodes, const Edit& edit, const Accept& accept, const Hopeless& is_hopeless) {
+             std::vector<Index>& nodes, const Edit& edit, const Accept& accept, const GivingUp* giving_up) {
   const Worth before = worth_around(mesh, near);
   nodes.clear();
   mesh.add_work(before.faces);
@@ -59,10 +62,10 @@ bool attempt(kernel::Mesh& mesh, const SmoothingOptions& relaxing, int rings, co
     topology::remove_doublets(mesh, nodes);
     faces = topology::faces_around(mesh, nodes);
     std::function<bool(int)> goes_on;
-    if constexpr (!std::is_same_v<Hopeless, AlwaysHope>)
+    if (giving_up && faces.size() >= giving_up->least_faces)
       goes_on = [&](int pass) {
         mesh.add_work(faces.size());
-        return !is_hopeless(before, worth_of(mesh, faces), pass);
+        return !giving_up->is_hopeless(before, worth_of(mesh, faces), pass);
       };
     kept =
         accept(before, best_worth_around(mesh, nodes)) && smoothing::smooth_near(mesh, relaxing, nodes, rings, goes_on);
