@@ -32,11 +32,11 @@ Plane plane_of(const LaidOut& part, bool is_watched) {
 }  // namespace
 
 kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
-                          ConversionReport& report, Record& record) {
+                          ConversionReport& report, Record& record, Tries tries) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(part, options.observer != nullptr);
   const Region region = piece.region(chart.flat());
-  if (task == Task::convert) return qmorph::convert_region(region, plane, options, allowed, report, record);
+  if (task == Task::convert) return qmorph::convert_region(region, plane, options, allowed, report, record, tries);
   kernel::Mesh mesh = piece.mesh(chart.flat());
   const kernel::Mesh input = mesh;
   const ImproveStart start = start_improving(region, std::move(mesh), plane, options);

@@ -3,6 +3,7 @@
 /// The stages of the engine on parts of a region, each in its chart.
 
 #include "chart/divide.hpp"
+#include "engine/convert_region.hpp"
 #include "engine/record.hpp"
 #include "qmorph/report.hpp"
 
@@ -14,6 +15,6 @@ enum class Task { convert, improve };
 /// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was
 /// found
 kernel::Mesh work_on_part(const LaidOut& part, const Options& options, double allowed, Task task,
-                          ConversionReport& report, Record& record);
+                          ConversionReport& report, Record& record, Tries tries);
 
 }  // namespace qmorph::chart

@@ -43,8 +43,9 @@ struct Distrust {
 /// One try.
 class Worker {
  public:
-  Worker(const CurvedRegion& region, const Options& options, Effort& effort, Task task, const Distrust& distrust)
-      : region_(region), options_(options), effort_(effort), task_(task), distrust_(distrust) {
+  Worker(const CurvedRegion& region, const Options& options, Effort& effort, Task task, const Distrust& distrust,
+         Tries tries = Tries::as_many_as_pay)
+      : region_(region), options_(options), effort_(effort), task_(task), distrust_(distrust), tries_(tries) {
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
@@ -184,7 +185,7 @@ class Worker {
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
-        results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p]), {}};
+        results[p] = {&part.piece, work_on_part(part, own, most, task_, reports[p], records[p], tries_), {}};
         results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
       } catch (const SurfaceError&) {
         has_no_chart_[p] = true;
@@ -284,6 +285,7 @@ class Worker {
   Effort& effort_;
   const Task task_;
   const Distrust& distrust_;
+  const Tries tries_;
   RegionWork work_;
   SurfaceMesh mesh_;
   std::vector<Index> opposite_;
@@ -365,7 +367,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
 
 std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
   const Distrust nothing;
-  Worker worker(region, options, effort, task, nothing);
+  Worker worker(region, options, effort, task, nothing, Tries::one);
   if (!worker.run() || worker.doubtful() > 0) return {};
   return worker.result();
 }

@@ -34,7 +34,7 @@ struct Effort {
 /// \throws SurfaceError
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task);
 
-/// The same, tried once: nothing if that fails or is doubtful.
+/// The same, tried once, and each part as well: nothing if that fails or is doubtful.
 std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task);
 
 }  // namespace qmorph::chart

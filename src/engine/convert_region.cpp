@@ -58,8 +58,13 @@ constexpr int kQuickNodes = 1;
 class RegionConverter {
  public:
   /// `allowed`: work that all attempts together may cost, more or less.
-  RegionConverter(const Region& region, const Plane& plane, const Options& options, double allowed)
-      : region_(region), plane_(plane), options_(options), is_small_(is_small(region, options)), allowed_(allowed) {
+  RegionConverter(const Region& region, const Plane& plane, const Options& options, double allowed, Tries tries)
+      : region_(region),
+        plane_(plane),
+        options_(options),
+        is_small_(is_small(region, options)),
+        allowed_(allowed),
+        tries_(tries) {
     start();
   }
 
@@ -173,7 +178,7 @@ class RegionConverter {
     take_chords(best);
     take_pairs(best);
     Worth worth = judge(best.mesh);
-    if (best.fault || worth.least < kHopeless || is_good(worth)) return best;
+    if (tries_ == Tries::one || best.fault || worth.least < kHopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;
     const auto finish_most_promising = [&] {
       const auto promising = std::max_element(tries.begin(), tries.end(),
@@ -321,6 +326,7 @@ class RegionConverter {
   const Options& options_;
   const bool is_small_;  ///< so that a second try is allowed
   const double allowed_;
+  const Tries tries_;
   std::size_t cost_ = 0;
   std::vector<Front> fronts_;
   std::size_t next_variant_ = 0;  ///< of front_variants()
@@ -330,13 +336,13 @@ class RegionConverter {
 
 /// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.
 std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
-                                           double allowed, std::size_t& cost) {
+                                           double allowed, Tries tries, std::size_t& cost) {
   if (region.boundary_sides % 2 == 0 || !is_small(region, options) || allowed <= 0) return {};
   const std::optional<Ear> ear = sharpest_ear(region);
   if (!ear) return {};
   try {
     const Region rest = cut_off(region, *ear);
-    RegionConverter converter(rest, plane, options, allowed);
+    RegionConverter converter(rest, plane, options, allowed, tries);
     Attempt result = converter.run();
     cost += converter.cost();
     put_back(result.mesh, *ear);
@@ -352,12 +358,12 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
 }  // namespace
 
 kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, double allowed,
-                            ConversionReport& report, Record& record) {
+                            ConversionReport& report, Record& record, Tries tries) {
   const std::size_t size = region.triangles.size();
-  RegionConverter converter(region, plane, options, allowed);
+  RegionConverter converter(region, plane, options, allowed, tries);
   Attempt best = converter.run();
   std::size_t cost = converter.cost();
-  if (auto other = convert_without_ear(region, plane, options, allowed - double(cost), cost))
+  if (auto other = convert_without_ear(region, plane, options, allowed - double(cost), tries, cost))
     if (worth_of(other->mesh, size).sum() > worth_of(best.mesh, size).sum()) best = std::move(*other);
   best.mesh.add_work(cost - best.mesh.work());
   report = best.report;

@@ -10,12 +10,15 @@
 
 namespace qmorph {
 
+/// How often the front may begin anew.
+enum class Tries { as_many_as_pay, one };
+
 /// All stages on one region. In a small region a single decision of the front decides how good the result is, and
 /// nobody can tell which: if the result is poor, other constants of the front are tried as well
 /// (`Options::retry_triangles`), and the best result is taken, all for about as much work as is allowed
-/// (allowance.hpp). What it has cost is the work of the mesh.
+/// (allowance.hpp). What it has cost is the work of the mesh. With `Tries::one` there are no others.
 /// \throws SurfaceError if no valid result was found
 kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, double allowed,
-                            ConversionReport& report, Record& record);
+                            ConversionReport& report, Record& record, Tries tries = Tries::as_many_as_pay);
 
 }  // namespace qmorph
