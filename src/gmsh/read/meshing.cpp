@@ -12,7 +12,6 @@
 #include <set>
 
 #include "gmsh/even/even_links.hpp"
-#include "gmsh/model/model_mesh.hpp"
 #include "gmsh/read/facing.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/element_types.hpp"
