@@ -156,16 +156,26 @@ class RegionConverter {
     return paired;
   }
 
-  /// Where the front has gone astray (its quads are far too many then, be they good or poor), or a small region leaves
-  /// it no room, triangles may be worth more paired as they are.
+  /// Where the front has gone astray (its quads are far too many then, be they good or poor), or a small region of a
+  /// plane leaves it no room, triangles may be worth more paired as they are. (What has long quads in a chart often has
+  /// no valid place in space.)
   void take_pairs(Attempt& best) {
     constexpr double kPoor = 0.3, kAsGood = 0.05;
     const Worth worth = judge(best.mesh);
-    const bool is_astray = worth.growth > 2 * kFairGrowth, has_no_room = is_small_ && worth.least < kPoor;
+    const bool is_astray = worth.growth > 2 * kFairGrowth;
+    const bool has_no_room = is_small_ && !plane_.curved && worth.least < kPoor;
     if (best.fault || !(is_astray || has_no_room)) return;
     Attempt paired = pair_triangles();
     const Worth other = judge(paired.mesh);
-    if (!paired.fault && other.least >= worth.least - kAsGood && other.sum() > worth.sum()) best = std::move(paired);
+    const auto count_poor = [](const kernel::Mesh& mesh) {
+      std::size_t count = 0;
+      for (Index f = 0; f < mesh.face_slots(); ++f)
+        count += mesh.is_live_face(f) && mesh.is_quad(f) && mesh.smallest_sine(f) < kPoor;
+      return count;
+    };
+    const bool has_fewer_poor = has_no_room && other.least >= worth.least - kAsGood && other.sum() > worth.sum() &&
+                                count_poor(paired.mesh) < count_poor(best.mesh);
+    if (!paired.fault && (has_fewer_poor || (is_astray && is_better(other, worth)))) best = std::move(paired);
   }
 
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the

@@ -21,14 +21,9 @@ struct PoorFace {
 std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine);
 
 /// Moves the nodes of faces below `options.target_quality` one at a time to where the smallest sine around is largest,
-<<<<<<< ours
 /// by compass search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first,
 /// and of close ones (`MeshOnSurface::exact_sine`) a smaller number.
-/// Returns the nodes that moved.
-=======
-/// by compass search in the tangent plane. Cost: a number of looks in proportion to the mesh, at the worst faces first.
 /// Where triangles are stretched, only nodes of invalid faces move. Returns the nodes that moved.
->>>>>>> theirs
 std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options);
 
 /// Faces that are not valid are taken out with a few rings around, laid flat with the surface under them, and untangled
