@@ -42,7 +42,7 @@ Frame frame_of(const std::vector<PlacedFilm>& films) {
   const Film& first = *films.front().film;
   const Vec3 normal = first.axis_u.cross(first.axis_v).stableNormalized();
   if (normal.z() <= kAlongZ) {  // else as the model has it
-    frame.right = first.axis_u.stableNormalized();
+    frame.right = right_of(normal);
     frame.up = normal.cross(frame.right);
   }
   for (const PlacedFilm& placed : films) {

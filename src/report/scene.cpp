@@ -151,6 +151,11 @@ Eigen::Vector3d Frame::to_frame(const Eigen::Vector3d& p) const {
   return {d.dot(right), d.dot(up), d.dot(normal())};
 }
 
+Eigen::Vector3d right_of(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d axis = std::abs(normal.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  return (axis - axis.dot(normal) * normal).normalized();
+}
+
 Frame find_frame(const Scene& scene) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   Box box;
@@ -170,8 +175,7 @@ Frame find_frame(const Scene& scene) {
   normal.cwiseAbs().maxCoeff(&largest);
   if (normal[largest] < 0) normal = -normal;
   if (normal.z() < kAlongZ) {
-    const Eigen::Vector3d axis = std::abs(normal.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-    frame.right = (axis - axis.dot(normal) * normal).normalized();
+    frame.right = right_of(normal);
     frame.up = normal.cross(frame.right);
   }
   for (const auto& face : scene.faces)

@@ -67,6 +67,9 @@ struct Frame {
   Eigen::Vector3d to_frame(const Eigen::Vector3d& p) const;
 };
 
+/// What runs to the right where one looks at a plane against this unit normal: along x, as far as that may be.
+Eigen::Vector3d right_of(const Eigen::Vector3d& normal);
+
 /// The plane of a flat scene, x and y themselves where that is (nearly) z = constant; x and z for a scene in space.
 Frame find_frame(const Scene& scene);
 

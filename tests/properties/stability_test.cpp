@@ -148,8 +148,8 @@ TEST_CASE("random domains: moved by what no coordinate is rounded for, they beco
     const Patch there = moved(patch, 1, Eigen::Matrix3d::Identity(), {5, -3, 2});
     CAPTURE(seed);
     try {
-      const auto work = converted(options_for(seed));
-      CHECK(work(patch).quads == work(there).quads);
+      // Not checked otherwise: the short coordinates have taken tilted ones off their planes, by little.
+      CHECK(convert(patch, options_for(seed)).mesh.quads == convert(there, options_for(seed)).mesh.quads);
     } catch (const SurfaceError&) {
     }
   }
