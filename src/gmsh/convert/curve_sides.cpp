@@ -142,7 +142,7 @@ std::string find_given_folds(const ModelMesh& mesh, const EntityMesh& before,
   for (const CurvedElements& elements : parts)
     for (Index e = 0; e < elements.elements(); ++e) {
       if (elements.element(e).is_kept || !elements.is_folded(e)) continue;
-      const std::string where = "at " + describe(elements.points()[elements.element(e).corners[0]]);
+      const std::string where = "at " + describe(elements.place_of_fold(e));
       if (!input) input.emplace(mesh, before);
       if (!input->explain(elements, e))
         throw SurfaceError("its curved edges would turn an element over " + where + "; refine the mesh there",

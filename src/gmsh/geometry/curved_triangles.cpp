@@ -11,13 +11,29 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-/// The functions of an element type at points of the reference element: a row for each point.
-std::vector<double> functions_at(int type, const std::vector<Vector2d>& points) {
+/// What Gmsh calls `name` of an element type at points of the reference element: a row for each point.
+std::vector<double> at_points(const char* name, int type, const std::vector<Vector2d>& points) {
   std::vector<double> uvw, values;
   for (const Vector2d& p : points) uvw.insert(uvw.end(), {p.x(), p.y(), 0});
   int components = 0, orientations = 0;
-  if (!points.empty()) ::gmsh::model::mesh::getBasisFunctions(type, uvw, "Lagrange", components, values, orientations);
+  if (!points.empty()) ::gmsh::model::mesh::getBasisFunctions(type, uvw, name, components, values, orientations);
   return values;
+}
+
+std::vector<double> functions_at(int type, const std::vector<Vector2d>& points) {
+  return at_points("Lagrange", type, points);
+}
+
+/// By u, v and w, three for each function.
+std::vector<double> slopes_at(int type, const std::vector<Vector2d>& points) {
+  return at_points("GradLagrange", type, points);
+}
+
+/// The nearest point of the reference element, or one near that.
+Vector2d inside(const ElementType& type, const Vector2d& p) {
+  if (type.corners == 4) return p.cwiseMax(-1.0).cwiseMin(1.0);
+  const Vector2d positive = p.cwiseMax(0.0);
+  return positive / std::max(1.0, positive.sum());
 }
 
 Vector2d local_point(const ElementType& type, std::size_t node) {
@@ -71,10 +87,40 @@ bool CurvedTriangles::are_flat() const {
   return true;
 }
 
+Vector3d CurvedTriangles::at(std::size_t b, std::size_t element, const double* functions) const {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t k = 0; k < types_[b].nodes; ++k) sum += functions[k] * node(surface_.blocks[b], element, k);
+  return sum;
+}
+
+/// Steps of Newton's method for the closest point, without second derivatives. Gmsh puts nodes of curved sides evenly in
+/// the parameters of the geometry, not along the side: where the weights of a point are in the curved element may be
+/// far beside the point, and elements of order 3 fold by that.
+void CurvedTriangles::come_nearest(std::size_t b, std::span<const OnInput> points, const std::vector<Asked>& asked,
+                                   std::vector<Vector2d>& local) const {
+  constexpr int kSteps = 3;
+  const std::size_t count = types_[b].nodes;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::vector<double> functions = functions_at(types_[b].type, local),
+                              slopes = slopes_at(types_[b].type, local);
+    for (std::size_t j = 0; j < asked.size(); ++j) {
+      Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+      for (std::size_t k = 0; k < count; ++k) {
+        const double* slope = slopes.data() + 3 * (j * count + k);
+        tangents += node(surface_.blocks[b], asked[j].element, k) * Eigen::RowVector2d(slope[0], slope[1]);
+      }
+      const Vector3d off = points[asked[j].point].point - at(b, asked[j].element, functions.data() + j * count);
+      const Eigen::Matrix2d squares = tangents.transpose() * tangents;
+      const Vector2d way = squares.inverse() * (tangents.transpose() * off);
+      if (way.allFinite()) local[j] = inside(types_[b], local[j] + way);
+    }
+  }
+}
+
 std::vector<Landing> CurvedTriangles::land(std::span<const OnInput> points) const {
   std::vector<Landing> landings(points.size());
-  std::vector<std::vector<Vector2d>> local(types_.size());                             // by block
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> asked(types_.size());  // point, element
+  std::vector<std::vector<Vector2d>> local(types_.size());  // by block
+  std::vector<std::vector<Asked>> asked(types_.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     landings[i].point = points[i].point;
     std::array<std::size_t, 3> order = {0, 1, 2};
@@ -88,16 +134,14 @@ std::vector<Landing> CurvedTriangles::land(std::span<const OnInput> points) cons
     for (std::size_t k = 0; k < 3; ++k)
       at += points[i].weights[Eigen::Index(order[k])] * local_point(types_[place.block], place.corners[k]);
     local[place.block].push_back(at);
-    asked[place.block].emplace_back(i, place.element);
+    asked[place.block].push_back({i, place.element});
   }
   for (std::size_t b = 0; b < types_.size(); ++b) {
-    const ElementBlock& block = surface_.blocks[b];
-    const std::vector<double> functions = functions_at(block.type, local[b]);
+    come_nearest(b, points, asked[b], local[b]);
+    const std::vector<double> functions = functions_at(types_[b].type, local[b]);
     for (std::size_t j = 0; j < asked[b].size(); ++j) {
-      Landing& landing = landings[asked[b][j].first];
-      landing.point.setZero();
-      for (std::size_t k = 0; k < types_[b].nodes; ++k)
-        landing.point += functions[j * types_[b].nodes + k] * node(block, asked[b][j].second, k);
+      Landing& landing = landings[asked[b][j].point];
+      landing.point = at(b, asked[b][j].element, functions.data() + j * types_[b].nodes);
       landing.found = true;
     }
   }

@@ -146,7 +146,7 @@ std::vector<Vector3d> CurvedElements::places(Index e) const {
   return places;
 }
 
-bool CurvedElements::is_folded(Index e) const {
+std::vector<double> CurvedElements::rises(Index e) const {
   const std::size_t corners = elements_[e].corners.size();
   const Shape& form = shape(corners);
   const std::vector<Vector3d> at = places(e);
@@ -155,14 +155,26 @@ bool CurvedElements::is_folded(Index e) const {
     for (std::size_t i = 0; i < functions; ++i) sum += at[i] * slopes[node * functions + i].transpose();
     return sum;
   };
+  std::vector<double> rises;
   for (std::size_t node = 0; node < at.size(); ++node) {
     const auto here = tangents(form.slopes, node, at.size()), straight = tangents(form.linear_slopes, node, corners);
     const Vector3d up = straight.col(0).cross(straight.col(1));
-    if (!(here.col(0).cross(here.col(1)).dot(up) >
-          kDegenerateSine * here.col(0).norm() * here.col(1).norm() * up.norm()))
-      return true;
+    const double lengths = here.col(0).norm() * here.col(1).norm() * up.norm();
+    rises.push_back(lengths > 0 ? here.col(0).cross(here.col(1)).dot(up) / lengths : 0);
   }
-  return false;
+  return rises;
+}
+
+bool CurvedElements::is_folded(Index e) const {
+  const std::vector<double> all = rises(e);
+  return std::any_of(all.begin(), all.end(), [](double rise) { return !(rise > kDegenerateSine); });
+}
+
+const Vector3d& CurvedElements::place_of_fold(Index e) const {
+  const std::vector<double> all = rises(e);
+  const auto corners = static_cast<std::ptrdiff_t>(elements_[e].corners.size());
+  const auto lowest = std::min_element(all.begin(), all.begin() + corners) - all.begin();
+  return points_[elements_[e].corners[static_cast<std::size_t>(lowest)]];
 }
 
 Index CurvedElements::find_folded() const {

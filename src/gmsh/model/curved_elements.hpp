@@ -66,6 +66,8 @@ class CurvedElements {
 
   /// At a node of it the element is turned over, or flat, compared with one that has straight sides.
   bool is_folded(Index element) const;
+  /// The corner where it is turned over most.
+  const Eigen::Vector3d& place_of_fold(Index element) const;
   /// Straightens sides of folded elements, unless they are given and on a boundary, or those of kept elements. Where a
   /// given side folds one all the same, the side opposite is bent like it, or those beside it turn with it. Some may
   /// stay folded.
@@ -77,6 +79,8 @@ class CurvedElements {
   Index find_folded() const;
 
  private:
+  /// By node of the element: the sine of the angle between its directions there, negative where it is turned over.
+  std::vector<double> rises(Index element) const;
   using Vector3d = Eigen::Vector3d;
   /// An element of reference: derivatives of its functions at its nodes, and those of the corners' linear ones.
   struct Shape {

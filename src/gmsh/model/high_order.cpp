@@ -284,7 +284,7 @@ void raise_order(const ModelMesh& mesh, const EntityMesh& before, std::vector<Cu
 
 std::string find_bent(const CurvedElements& elements) {
   const Index bent = elements.find_folded();
-  return bent == kNone ? "" : "at " + describe(elements.points()[elements.element(bent).corners[0]]);
+  return bent == kNone ? "" : "at " + describe(elements.place_of_fold(bent));
 }
 
 }  // namespace qmorph::adapter
