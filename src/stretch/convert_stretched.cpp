@@ -93,13 +93,6 @@ double irregular_share(const kernel::Mesh& mesh) {
   return inner > 0 ? double(irregular) / double(inner) : 0;
 }
 
-double mean_sine(const kernel::Mesh& mesh) {
-  double sum = 0, faces = 0;
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f)) sum += mesh.smallest_sine(f), ++faces;
-  return faces > 0 ? sum / faces : 0;
-}
-
 bool is_valid(const kernel::Mesh& mesh, const MetricField& field) {
   for (Index f = 0; f < mesh.face_slots(); ++f)
     if (mesh.is_live_face(f) && !is_valid(mesh, f, field)) return false;
@@ -113,32 +106,23 @@ struct Attempt {
   Record record{};
 };
 
-/// What decides between quads made in the chart and those of a front among the stretched triangles. First of all, sizes
-/// are to be kept; then it counts how near to rectangles quads are in the plane, and how near to triangles in size.
+/// What decides between quads made in the chart and those of a front among the stretched triangles.
 struct Measure {
   double size_ratio;        ///< by how much sizes are off
-  double mean_sine;         ///< of the smallest of each quad
   double irregular, least;  ///< share of nodes; smallest sine
 
   bool loses_sizes() const { return size_ratio > kLargestSizeRatio; }
   bool is_poor() const { return least < kPoorQuad; }
-  bool is_good() const {
-    constexpr double kGoodMean = 0.8;
-    return !loses_sizes() && !is_poor() && mean_sine >= kGoodMean;
-  }
+  bool is_good() const { return !loses_sizes() && !is_poor(); }
   bool is_better_than(const Measure& other) const {
-    if (other.loses_sizes()) return worth() > other.worth();
-    return !loses_sizes() && ((other.is_poor() && !is_poor()) || worth() > other.worth());
+    // Such a front often keeps sizes by many small quads without any order.
+    if (other.loses_sizes() && size_ratio + irregular < other.size_ratio + other.irregular) return true;
+    return other.is_poor() && !is_poor() && !loses_sizes();
   }
-
- private:
-  /// Quads that lean are worth what is left of their height; such a front often keeps sizes by many small quads without
-  /// any order.
-  double worth() const { return mean_sine * (1 - irregular) / size_ratio; }
 };
 
 Measure measure(const Attempt& attempt, const Region& region) {
-  return {size_ratio(region, attempt.mesh), mean_sine(attempt.mesh), irregular_share(attempt.mesh),
+  return {size_ratio(region, attempt.mesh), irregular_share(attempt.mesh),
           worth_of(attempt.mesh, region.triangles.size()).least};
 }
 
