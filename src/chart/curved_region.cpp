@@ -27,9 +27,7 @@ std::vector<Vec2> shadow(const Patch& patch) {
 
 CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) : region(std::move(cut)) {
   for (Index row : region.node) points.push_back(patch.points[row]);
-  for (Index side = 0; side < region.open.size(); ++side)
-    if (region.open[side])
-      barriers.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
+  barriers = boundary_edges(region);
   background = std::make_unique<const space::Background>(points, region.triangles, barriers);
   creases = space::find_creases(*background, crease_angle);
   find_stretch();

@@ -16,8 +16,8 @@ std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edg
 std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sides);
 
 /// Moves nodes of interfaces, and those around, so that the interfaces are smooth. Where that has made their edges
-/// shorter than others, some of their nodes go. Creases stay; faces may get other numbers. Where
-/// triangles are stretched all that is by their metric.
+/// shorter than others, some of their nodes go. Creases stay; faces may get other numbers. Where triangles are
+/// stretched, all that is by their metric.
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
                 const Ground& ground);
 

@@ -10,8 +10,8 @@
 namespace qmorph {
 namespace {
 
-/// The triangles, with nodes that are numbered as they come. Side c runs from the node of corner c to that of the next corner.
-/// Corners of triangle k are 3 k, 3 k + 1, 3 k + 2.
+/// The triangles, with nodes that are numbered as they come. Side c runs from the node of corner c to that of the next
+/// corner. Corners of triangle k are 3 k, 3 k + 1, 3 k + 2.
 class Sides {
  public:
   Sides(const Patch& patch, EdgesOfMany many) : opposite_(3 * patch.triangles.size(), kNone) {
@@ -187,6 +187,14 @@ std::vector<Index> number_regions(const Sides& sides, Index triangles, std::vect
 }
 
 }  // namespace
+
+std::vector<std::array<Index, 2>> boundary_edges(const Region& region) {
+  std::vector<std::array<Index, 2>> edges;
+  for (Index side = 0; side < region.open.size(); ++side)
+    if (region.open[side])
+      edges.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
+  return edges;
+}
 
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points, EdgesOfMany many) {
   Sides sides(patch, many);

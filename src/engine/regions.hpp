@@ -46,6 +46,9 @@ struct Region {
   std::size_t boundary_sides = 0;
 };
 
+/// Edges of the boundary, each from the node that it leads away from while the region is on its left.
+std::vector<std::array<Index, 2>> boundary_edges(const Region& region);
+
 /// What is done where more than two triangles meet at an edge: in a plane they overlap, in space they are sheets, and
 /// parted there.
 enum class EdgesOfMany { refuse, part };

@@ -93,7 +93,7 @@ void drop_around_crumbs(const Background& surface, const std::vector<char>& coun
 /// what the triangulation makes of the tip, and no creases. All that begin at such a node end in the surface soon.
 class TipCreases {
  public:
-  TipCreases(const space::Background& surface, std::vector<bool>& is_crease)
+  TipCreases(const Background& surface, std::vector<bool>& is_crease)
       : surface_(surface), is_crease_(is_crease), is_outer_(surface.points().size(), 0) {
     std::vector<std::pair<Index, Index>> ends;  // node, side that is a crease and starts there
     for (Index side = 0; side < is_crease.size(); ++side) {
@@ -135,7 +135,7 @@ class TipCreases {
     return false;
   }
 
-  const space::Background& surface_;
+  const Background& surface_;
   std::vector<bool>& is_crease_;
   std::vector<char> is_outer_;  ///< by node
   std::vector<Index> first_, sides_;

@@ -197,12 +197,6 @@ double MeshOnSurface::smallest_sine_around(Index v) const {
   return least;
 }
 
-double MeshOnSurface::exact_sine_around(Index v) const {
-  double least = 1;
-  for_sides_around(v, [&](Index side) { least = std::min(least, exact_sine(side / 4)); });
-  return least;
-}
-
 bool MeshOnSurface::unfold(Index v, UnfoldedStar& star) const {
   constexpr double kLeastCosine = -0.5;
   const Vector3d &centre = mesh_.points[v], &normal = normal_[v];

@@ -78,7 +78,6 @@ class MeshOnSurface {
   double smallest_sine_around(Index v) const;
   /// The one that counts, by the surface's normals near the corners.
   double exact_sine(Index face) const;
-  double exact_sine_around(Index v) const;
   /// How often exact_sine() was asked for, which costs much more than anything else here.
   std::size_t exact_looks() const { return exact_looks_; }
   /// smallest_rise() by the same normals.

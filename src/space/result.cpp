@@ -4,11 +4,8 @@
 #include <algorithm>
 
 namespace qmorph::space {
-namespace {
 
 using Eigen::Vector3d;
-
-}  // namespace
 
 std::vector<std::array<Index, 2>> kept_constraints(const Patch& before, const QuadMesh& after) {
   std::vector<Index> row(before.points.size(), kNone);

@@ -21,14 +21,6 @@ namespace {
 /// Fewer triangles may be what they are by chance, or because the boundary leaves no room, though they are alike.
 constexpr std::size_t kFewestAlike = 16;
 
-std::vector<space::Background::Edge> barriers_of(const Region& region) {
-  std::vector<space::Background::Edge> edges;
-  for (Index side = 0; side < region.open.size(); ++side)
-    if (region.open[side])
-      edges.push_back({region.triangles[side / 3][side % 3], region.triangles[side / 3][(side + 1) % 3]});
-  return edges;
-}
-
 /// A look at single triangles: whether as many are so long that the region may be stretched, and none is turned over,
 /// or without area: a chart would hide that.
 bool may_be_stretched(const Region& region) {
@@ -44,10 +36,11 @@ bool may_be_stretched(const Region& region) {
 
 /// Whether the stretch is the triangles' own.
 bool is_stretched(const space::Background& surface, const MetricField& field) {
+  if (!field.is_stretched()) return false;
+  if (field.uniform()) return true;
   std::size_t outer = 0;
   for (Index side = 0; side < 3 * surface.triangles(); ++side) outer += surface.opposite(side) == kNone;
-  if (!field.is_stretched()) return false;
-  return field.uniform() || has_inside(surface.triangles(), surface.points().size(), outer);
+  return has_inside(surface.triangles(), surface.points().size(), outer);
 }
 
 /// Quads of the region, made in the chart.
@@ -91,12 +84,6 @@ double irregular_share(const kernel::Mesh& mesh) {
     irregular += valences[v] != 4;
   }
   return inner > 0 ? double(irregular) / double(inner) : 0;
-}
-
-bool is_valid(const kernel::Mesh& mesh, const MetricField& field) {
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f) && !is_valid(mesh, f, field)) return false;
-  return true;
 }
 
 /// What an attempt has made.
@@ -145,7 +132,7 @@ std::optional<StretchedQuads> convert_stretched(const Region& region, const Plan
                                                 double allowed, ConversionReport& report, Record& record) {
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
   if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
-  const Surface surface(region.points, region.triangles, barriers_of(region));
+  const Surface surface(region.points, region.triangles, boundary_edges(region));
   const MetricField field(surface.background);
   if (!is_stretched(surface.background, field)) return {};
   std::optional<chart::Flattening> flattening = unfold(surface.background, field);

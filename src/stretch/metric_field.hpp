@@ -35,8 +35,8 @@ class MetricField {
   double share_above(double ratio) const;
   bool is_stretched() const { return share_above(kStretched) >= kStretchedShare; }
   double largest_ratio() const;
-  /// Where tangent planes are one plane and ratio and direction are nearly the same everywhere: their mean, which leaves
-  /// areas as they are.
+  /// Where tangent planes are one plane and ratio and direction are nearly the same everywhere: their mean, which
+  /// leaves areas as they are.
   std::optional<LogMetric> uniform() const;
 
  private:

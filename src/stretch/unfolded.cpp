@@ -62,8 +62,11 @@ void Unfolded::lift_and_straighten(kernel::Mesh& mesh) const {
   straighten(mesh, metrics);
 }
 
-bool is_valid(const kernel::Mesh& mesh, Index face, const MetricField& field) {
-  return mesh.is_above(face, std::max(kDegenerateSine, kStraightSine / field.largest_ratio()));
+bool is_valid(const kernel::Mesh& mesh, const MetricField& field) {
+  const double least = std::max(kDegenerateSine, kStraightSine / field.largest_ratio());
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f) && !mesh.is_above(f, least)) return false;
+  return true;
 }
 
 }  // namespace qmorph::stretch

@@ -55,6 +55,6 @@ class Unfolded {
 
 /// What is straight by the metric is straight; what is right by the metric may be as thin in the plane as triangles
 /// are.
-bool is_valid(const kernel::Mesh& mesh, Index face, const MetricField& field);
+bool is_valid(const kernel::Mesh& mesh, const MetricField& field);
 
 }  // namespace qmorph::stretch

@@ -69,9 +69,7 @@ std::unique_ptr<const StretchedWindow> StretchedWindow::of(const chart::LaidOut&
 
 bool StretchedWindow::bring_back_straightened(kernel::Mesh& mesh) const {
   unfolded_->lift_and_straighten(mesh);
-  for (Index f = 0; f < mesh.face_slots(); ++f)
-    if (mesh.is_live_face(f) && !is_valid(mesh, f, field_)) return false;
-  return true;
+  return is_valid(mesh, field_);
 }
 
 }  // namespace qmorph::stretch

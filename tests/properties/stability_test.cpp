@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "qmorph/convert.hpp"
-#include "qmorph/quality.hpp"
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
 #include "support/layered.hpp"
 #include "support/nasty.hpp"
+#include "support/pool.hpp"
 #include "support/seeds.hpp"
 #include "support/surfaces.hpp"
 #include "support/symmetries.hpp"
@@ -77,24 +77,12 @@ Patch with_short_coordinates(Patch patch) {
   return patch;
 }
 
-struct Pool {
-  double quads = 0, jacobians = 0, interior = 0, irregular = 0;
-
-  void add(const QuadMesh& mesh) {
-    const Quality quality = measure(mesh);
-    quads += double(quality.quads);
-    jacobians += double(quality.quads) * quality.scaled_jacobian_mean;
-    interior += double(quality.interior_nodes);
-    irregular += double(quality.irregular_nodes);
-  }
-};
-
 void check_alike(const Pool& one, const Pool& other, double irregular_share) {
   constexpr double kHundredth = 0.01;
   const auto close = [](double value, double share) { return doctest::Approx(value).epsilon(share); };
   CHECK(other.quads == close(one.quads, kHundredth));
-  CHECK(other.jacobians / other.quads == close(one.jacobians / one.quads, kHundredth));
-  CHECK(other.irregular / other.interior == close(one.irregular / one.interior, irregular_share));
+  CHECK(other.mean() == close(one.mean(), kHundredth));
+  CHECK(other.irregular_share() == close(one.irregular_share(), irregular_share));
 }
 
 }  // namespace

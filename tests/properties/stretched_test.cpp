@@ -15,6 +15,7 @@
 #include "quality/directed_size.hpp"
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
+#include "support/pool.hpp"
 #include "support/rng.hpp"
 #include "support/seeds.hpp"
 
@@ -113,20 +114,6 @@ bool has_turned_over(const Patch& patch) {
     if (is_flat && (patch.points[b] - patch.points[a]).cross(patch.points[c] - patch.points[a]).z() <= 0) return true;
   return false;
 }
-
-/// Sums over domains.
-struct Pool {
-  double quads = 0, shapes = 0, nodes = 0, irregular = 0;
-  void add(const QuadMesh& mesh) {
-    const Quality quality = measure(mesh);
-    quads += double(quality.quads);
-    shapes += quality.scaled_jacobian_mean * double(quality.quads);
-    nodes += double(quality.interior_nodes);
-    irregular += double(quality.irregular_nodes);
-  }
-  double mean() const { return shapes / quads; }
-  double irregular_share() const { return irregular / nodes; }
-};
 
 struct Pools {
   Pool plain, stretched;

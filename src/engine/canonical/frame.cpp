@@ -154,8 +154,8 @@ std::uint64_t mixed(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// A number for the surface's coordinates in a frame that does not depend on how nodes and elements are numbered, nor on
-/// which way elements run round, nor on powers of two in scale.
+/// A number for the surface's coordinates in a frame that does not depend on how nodes and elements are numbered, nor
+/// on which way elements run round, nor on powers of two in scale.
 std::uint64_t fingerprint(const Patch& patch, const Frame& frame, double size) {
   const double unit = std::exp2(std::ilogb(size));
   std::vector<std::uint64_t> nodes;
@@ -177,7 +177,8 @@ std::uint64_t fingerprint(const Patch& patch, const Frame& frame, double size) {
   return all;
 }
 
-/// So that the surface is seen from the side of its normal, if it has one: the same side from wherever its elements are.
+/// So that the surface is seen from the side of its normal, if it has one: the same side from wherever its elements
+/// are.
 bool is_seen_from_behind(const Moments& moments, const Frame& frame) {
   for (std::size_t i : {2, 1, 0}) {
     const double area = frame.sign[i] * moments.area()[frame.axis[i]];

@@ -20,8 +20,8 @@ struct Numbered {
 /// in range. Elements that lie exactly upon each other keep the caller's order. Cost: linear, nearly.
 std::optional<Numbered> numbered(const Patch& patch);
 
-/// What was made of `from.patch`, in the caller's numbers and coordinates. Nodes that did not move have those of `patch`
-/// bit for bit.
+/// What was made of `from.patch`, in the caller's numbers and coordinates. Nodes that did not move have those of
+/// `patch` bit for bit.
 QuadMesh in_callers_terms(const QuadMesh& mesh, const Patch& patch, const Numbered& from);
 
 }  // namespace qmorph::canonical

@@ -7,9 +7,9 @@
 
 namespace qmorph::canonical {
 
-/// A region from the corner of its box on, its coordinates rounded to steps that are far smaller than its triangles, but
-/// far larger than what a computer rounds: a surface that is moved becomes the same quads, nearly always. Else noise
-/// would decide where edges are equally long.
+/// A region from the corner of its box on, its coordinates rounded to steps that are far smaller than its triangles,
+/// but far larger than what a computer rounds: a surface that is moved becomes the same quads, nearly always. Else
+/// noise would decide where edges are equally long.
 struct Rounded {
   Region region;
   Plane plane;  ///< has its origin in the corner

@@ -93,8 +93,8 @@ Vector3d CurvedTriangles::at(std::size_t b, std::size_t element, const double* f
   return sum;
 }
 
-/// Steps of Newton's method for the closest point, without second derivatives. Gmsh puts nodes of curved sides evenly in
-/// the parameters of the geometry, not along the side: where the weights of a point are in the curved element may be
+/// Steps of Newton's method for the closest point, without second derivatives. Gmsh puts nodes of curved sides evenly
+/// in the parameters of the geometry, not along the side: where the weights of a point are in the curved element may be
 /// far beside the point, and elements of order 3 fold by that.
 void CurvedTriangles::come_nearest(std::size_t b, std::span<const OnInput> points, const std::vector<Asked>& asked,
                                    std::vector<Vector2d>& local) const {

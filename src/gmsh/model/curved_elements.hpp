@@ -79,8 +79,6 @@ class CurvedElements {
   Index find_folded() const;
 
  private:
-  /// By node of the element: the sine of the angle between its directions there, negative where it is turned over.
-  std::vector<double> rises(Index element) const;
   using Vector3d = Eigen::Vector3d;
   /// An element of reference: derivatives of its functions at its nodes, and those of the corners' linear ones.
   struct Shape {
@@ -99,6 +97,8 @@ class CurvedElements {
   void turn_like(const CurvedSide& given, Index side, double part);
   bool turn_beside_given_side(Index element, const Around& around);
   std::vector<Eigen::Vector3d> places(Index element) const;
+  /// By node of the element: the sine of the angle between its directions there, negative where it is turned over.
+  std::vector<double> rises(Index element) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::array<Shape, 2> shapes_;  ///< triangles, quads
