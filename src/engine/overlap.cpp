@@ -181,9 +181,21 @@ void require_no_crossing(const std::vector<Segment>& outline, const Plane& plane
                        {.kind = ErrorKind::overlap, .place = plane.to_space(outline[i].a)});
 }
 
+void require_finite(const Patch& patch) {
+  constexpr double kLargest = 1e75;  // fourth powers of lengths overflow beyond it
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const Eigen::Vector3d& p = patch.points[i];
+    if (p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargest) continue;
+    throw SurfaceError("node " + std::to_string(i) + " has the coordinates " + describe(p) +
+                           (p.allFinite() ? ", too large to compute with; repair the input" : "; repair the input"),
+                       {.kind = ErrorKind::not_finite, .subject = node_row(i)});
+  }
+}
+
 }  // namespace
 
 void require_sound(const Patch& patch) {
+  require_finite(patch);
   const auto require_node = [&](Index v) {
     if (v >= patch.points.size())
       throw SurfaceError("an element uses node " + std::to_string(v) + " of " + std::to_string(patch.points.size()),

@@ -9,7 +9,7 @@
 
 namespace qmorph {
 
-/// Throws SurfaceError if an index is out of range or a triangle has a node twice.
+/// Throws SurfaceError if a coordinate is not finite, an index is out of range or an element has a node twice.
 void require_sound(const Patch& patch);
 
 /// By more than rounding. A triangle without area is not.

@@ -12,17 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-void require_finite(const Patch& patch) {
-  constexpr double kLargest = 1e75;  // squared areas overflow beyond it
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const Vector3d& p = patch.points[i];
-    if (p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargest) continue;
-    throw SurfaceError("node " + std::to_string(i) + " has the coordinates " + describe(p) +
-                           (p.allFinite() ? ", too large to compute with; repair the input" : "; repair the input"),
-                       {.kind = ErrorKind::not_finite, .subject = node_row(i)});
-  }
-}
-
 /// Of the triangles: the box around them, twice their area as a vector, and without its direction.
 struct Extent {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -64,7 +53,6 @@ Plane axes_for(const Vector3d& normal) {
 }  // namespace
 
 std::optional<Plane> find_plane(const Patch& patch) {
-  require_finite(patch);
   const Extent extent = extent_of(patch);
   const double size = (extent.high - extent.low).norm();
   Vector3d normal = extent.area;

@@ -30,7 +30,7 @@ struct Plane {
 /// For errors about a node of a patch.
 inline ErrorSubject node_row(std::size_t row) { return {ErrorSubject::Kind::node, row}; }
 
-/// Plane of the patch, if it is planar. Throws SurfaceError if a coordinate is not finite or no triangle has an area.
+/// Plane of the patch, which is sound (overlap.hpp), if it is planar. Throws SurfaceError if no triangle has an area.
 std::optional<Plane> find_plane(const Patch& patch);
 
 /// Triangles that are joined through edges that are no constraints, as a manifold with boundary: a node at which

@@ -44,6 +44,14 @@ TEST_CASE("errors: kind, place and node agree with the message") {
   CHECK(nowhere.subject->kind == ErrorSubject::Kind::node);
   CHECK(nowhere.subject->number == 4);
 
+  const ErrorDetails far_away = details_after([](Patch& p) { p.points[4].x() = 1e200; });
+  CHECK(far_away.kind == ErrorKind::not_finite);
+  const ErrorDetails nothing_left = details_after([](Patch& p) {
+    p.triangles.clear();
+    p.points[4].x() = std::nan("");
+  });
+  CHECK(nothing_left.kind == ErrorKind::not_finite);
+
   const ErrorDetails unknown = details_after([](Patch& p) { p.triangles[0][1] = 77; });
   CHECK(unknown.kind == ErrorKind::bad_element);
   CHECK(unknown.subject->number == 77);

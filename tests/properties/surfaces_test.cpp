@@ -63,7 +63,8 @@ TEST_CASE("1000 random domains rolled onto cylinders and cones come out as well 
   for (std::uint64_t seed = 0; seed < seeds(1000); ++seed) {
     const Patch patch = random_domain(seed).patch;
     Rng rng(seed);
-    const Options options = options_for(seed);
+    Options options;
+    options.retry_triangles = 150;  // tries with other constants are for small ones; for larger ones they take long
     try {
       const QuadMesh plane = convert(patch, options).mesh;
       const QuadMesh curved = convert(rolled(patch, seed % 2 ? rng.between(0.3, 0.9) : 0, rng), options).mesh;
@@ -76,9 +77,9 @@ TEST_CASE("1000 random domains rolled onto cylinders and cones come out as well 
     }
   }
   CHECK(100 * refused <= seeds(1000) + 99);
-  CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
-  CHECK(bent.quads == doctest::Approx(flat.quads).epsilon(0.02));
   // A single domain says little: a further margin for when there are few.
-  const double scatter = 0.004 * std::max(0.0, std::sqrt(1000 / double(seeds(1000))) - 1);
-  CHECK(bent.irregular_share() <= flat.irregular_share() * 1.02 + scatter);
+  const double few = std::max(0.0, std::sqrt(1000 / double(seeds(1000))) - 1);
+  CHECK(bent.mean() == doctest::Approx(flat.mean()).epsilon(0.02));
+  CHECK(bent.quads == doctest::Approx(flat.quads).epsilon(0.02 + 0.002 * few));
+  CHECK(bent.irregular_share() <= flat.irregular_share() * 1.02 + 0.004 * few);
 }

@@ -98,12 +98,6 @@ class NodeNumbers {
   std::vector<Index> number_, row_;
 };
 
-bool can_be_computed_with(const Patch& patch) {
-  const double kLargest = 1e75;  // fourth powers of lengths overflow beyond it
-  return std::all_of(patch.points.begin(), patch.points.end(),
-                     [&](const Vector3d& p) { return (p.array().abs() <= kLargest).all(); });
-}
-
 /// The caller's corners of the quads that stay, if the mesh begins with them as they are in `from`.
 bool begins_with_quads(const QuadMesh& mesh, const Patch& from) {
   const auto is_same = [&](Index v, Index of) { return mesh.source[v] == of; };
@@ -127,7 +121,7 @@ std::vector<Index> callers_order(const std::vector<Index>& callers_row, std::siz
 }  // namespace
 
 std::optional<Numbered> numbered(const Patch& patch) {
-  if ((patch.triangles.empty() && patch.quads.empty()) || !can_be_computed_with(patch)) return {};
+  if (patch.triangles.empty() && patch.quads.empty()) return {};
   Numbered result;
   result.frame = find_frame(patch);
   std::vector<Vector3d> points;

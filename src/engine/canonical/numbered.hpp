@@ -16,8 +16,8 @@ struct Numbered {
   std::vector<Index> node, quad;  ///< rows of the caller's patch
 };
 
-/// Nothing for a patch without elements, or with coordinates that are not to be computed with. Indices of elements are
-/// in range. Elements that lie exactly upon each other keep the caller's order. Cost: linear, nearly.
+/// Nothing for a patch without elements. The patch is sound (engine/overlap.hpp). Elements that lie exactly upon each
+/// other keep the caller's order. Cost: linear, nearly.
 std::optional<Numbered> numbered(const Patch& patch);
 
 /// What was made of `from.patch`, in the caller's numbers and coordinates. Nodes that did not move have those of
