@@ -97,10 +97,10 @@ class Chains {
         is_taken_(mesh.faces.size(), 0),
         came_from_(mesh.faces.size(), kNone) {}
 
-  /// `longest`: faces that a search looks at.
-  std::vector<Reworked> run(std::size_t longest) {
+  /// `longest`: faces that a search looks at. Ends when it has cost more than is `allowed`.
+  std::vector<Reworked> run(std::size_t longest, double allowed) {
     std::vector<Reworked> results;
-    for (Index f = 0; f < mesh_.faces.size(); ++f) {
+    for (Index f = 0; f < mesh_.faces.size() && double(work_) <= allowed; ++f) {
       if (!is_triangle(mesh_.faces[f]) || is_taken_[f]) continue;
       const std::vector<Index> chain = chain_from(f, longest);
       if (chain.empty()) continue;
@@ -110,6 +110,8 @@ class Chains {
     }
     return results;
   }
+
+  std::size_t work() const { return work_; }
 
  private:
   template <class Visit>
@@ -159,7 +161,9 @@ class Chains {
     if (!is_planar_topology(piece) || chart.flattening().flipped > 0 || chart.flattening().distortion > kMostDistortion)
       return {};
     Reworked work{&piece, piece.mesh(chart.flat()), {}};
-    if (elimination::eliminate_triangles(work.mesh, smoothing_) > 0) return {};
+    const std::size_t left = elimination::eliminate_triangles(work.mesh, smoothing_);
+    work_ += work.mesh.work();
+    if (left > 0) return {};
     for (Index f = 0; f < work.mesh.face_slots(); ++f)
       if (work.mesh.is_live_face(f) && !work.mesh.is_valid_face(f)) return {};
     if (folds_onto_itself(work.mesh, piece)) return {};
@@ -176,27 +180,30 @@ class Chains {
   const SmoothingOptions& smoothing_;
   std::vector<char> is_taken_;  ///< by face
   std::vector<Index> came_from_;
+  std::size_t work_ = 0;
   std::vector<std::unique_ptr<LaidOut>> laid_out_;  ///< of the results
 };
 
 }  // namespace
 
-void pair_up(SurfaceMesh& mesh, const std::vector<Edge>& walls, const space::Background& background,
-             const SmoothingOptions& smoothing) {
+std::size_t pair_up(SurfaceMesh& mesh, const std::vector<Edge>& walls, const space::Background& background,
+                    const SmoothingOptions& smoothing, double allowed) {
   join_pairs(mesh, sides_on(mesh, walls), background);
   constexpr std::size_t kNear = 100, kFarther = 8;
-  std::size_t longest = kNear;
-  while (true) {
+  std::size_t longest = kNear, work = 0;
+  while (double(work) <= allowed) {
     const std::vector<bool> is_wall = sides_on(mesh, walls);
     Chains chains(mesh, is_wall, background, smoothing);
-    const std::vector<Reworked> results = chains.run(longest);
+    const std::vector<Reworked> results = chains.run(longest, allowed - double(work));
+    work += chains.work();
     if (!results.empty()) {
       mesh = replace(mesh, results);
       continue;
     }
-    if (longest > mesh.faces.size()) return;
+    if (longest > mesh.faces.size()) break;
     longest *= kFarther;
   }
+  return work;
 }
 
 }  // namespace qmorph::chart

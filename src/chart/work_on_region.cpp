@@ -237,7 +237,7 @@ class Worker {
     for (Index p = 0; p < has_no_chart_.size(); ++p)
       if (has_no_chart_[p])
         for (Index v : division_.laid_out[p]->piece.vertex) needs_cleaning_[v] = 1;
-    pair_up(mesh_, creases_, background(), options_.smoothing);
+    effort_.spent += pair_up(mesh_, creases_, background(), options_.smoothing, effort_.allowed);
     needs_cleaning_.resize(mesh_.points.size(), 1);
   }
 
@@ -367,7 +367,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have
   // one, if there are few such places.
   constexpr std::size_t kMostTurned = 4;
-  if (task == Task::convert && size <= options.retry_triangles && (best.work || fewest_turned <= kMostTurned)) {
+  const bool is_hopeful = task == Task::convert && (best.work || fewest_turned <= kMostTurned);
+  if (is_hopeful && size <= options.retry_triangles) {
     const Distrust nothing;
     for (const Options& variant : few_front_variants(options)) {
       if (!effort.has_more_for(size)) break;
@@ -382,8 +383,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   constexpr std::size_t kNotMany = 2000;
   const int refinings = size <= kFew ? 3 : size <= kNotMany && !best.work ? 1 : 0;
   Distrust nodes;
-  while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
-         effort.has_more_for(size))
+  while (is_hopeful && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) && effort.has_more_for(size))
     if (Worker worker(region, options, effort, task, nodes); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
   throw *first;

@@ -93,7 +93,7 @@ TEST_CASE("parts: a region that is not much larger than a part stays whole") {
 }
 
 TEST_CASE("parts: cuts that leave nothing on one side are not made, and no triangle is lost") {
-  for (Sample& sample : samples(60, 40))
+  for (Sample& sample : samples(30, 40))
     for (std::size_t size : {1, 2, 3}) {
       Mesh mesh = sample.mesh;
       const Division division = divide(mesh, size);

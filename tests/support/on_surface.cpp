@@ -3,8 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "support/sides.hpp"
 
@@ -38,24 +41,42 @@ class Surface {
       if (normals[a].dot(normals[b]) < 0) is_folded_[a] = is_folded_[b] = 1;
     });
     for (Vector3d& n : near_) n.normalize();
+    sort_by_centre();
   }
 
   struct Foot {
     double distance = std::numeric_limits<double>::infinity();
     std::size_t triangle = 0;
   };
+  /// Of several as close, the first. Looks along x, both ways from the point, as far as a triangle may be closer.
   Foot closest(const Vector3d& p) const {
     Foot foot;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto look_at = [&](std::size_t t) {
       const double distance = distance_to(t, p);
-      if (distance < foot.distance) foot = {distance, t};
-    }
+      if (distance < foot.distance || (distance == foot.distance && t < foot.triangle)) foot = {distance, t};
+    };
+    const auto start = std::lower_bound(centres_.begin(), centres_.end(), Centre{p.x(), 0});
+    for (auto i = start; i != centres_.end() && i->first - p.x() - reach_ <= foot.distance; ++i) look_at(i->second);
+    for (auto i = start; i != centres_.begin() && p.x() - std::prev(i)->first - reach_ <= foot.distance; --i)
+      look_at(std::prev(i)->second);
     return foot;
   }
   const Vector3d& normal_near(std::size_t t) const { return near_[t]; }
   bool is_folded(std::size_t t) const { return is_folded_[t]; }
 
  private:
+  using Centre = std::pair<double, std::size_t>;  ///< x of the centre of a triangle
+
+  void sort_by_centre() {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      double centre = 0;
+      for (const Index v : triangles_[t]) centre += points_[v].x() / 3;
+      for (const Index v : triangles_[t]) reach_ = std::max(reach_, std::abs(points_[v].x() - centre));
+      centres_.emplace_back(centre, t);
+    }
+    std::sort(centres_.begin(), centres_.end());
+  }
+
   static double distance_to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
     const double length2 = (b - a).squaredNorm();
     const double t = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
@@ -74,6 +95,8 @@ class Surface {
   std::vector<std::array<Index, 3>> triangles_;
   std::vector<Vector3d> near_;  ///< normal of each triangle weighed 3, those of its neighbours 1
   std::vector<char> is_folded_;
+  std::vector<Centre> centres_;
+  double reach_ = 0;  ///< of a triangle from its centre, along x
 };
 
 template <class Elements>
