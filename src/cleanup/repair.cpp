@@ -59,8 +59,10 @@ class Repair {
     std::vector<Index> poor;
     for (Index f = 0; f < mesh_.face_slots(); ++f)
       if (is_poor(f)) poor.push_back(f);
-    for (Index f : worst_first(mesh_, poor))
+    for (Index f : worst_first(mesh_, poor)) {
+      if (budget_.is_spent()) break;
       if (is_poor(f)) changes_ += improve_by_two(f);
+    }
     return changes_;
   }
 

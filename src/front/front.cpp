@@ -59,21 +59,37 @@ Front::Key Front::key_of(unsigned level, unsigned priority, double length) {
   return std::min(level, kMostLevels) << kLevelShift | priority << kPriorityShift | length_class(length);
 }
 
+Index Front::new_entry(Index h) {
+  if (unused_ == kNone) {
+    entries_.push_back({h, kNone});
+    return Index(entries_.size() - 1);
+  }
+  const Index entry = std::exchange(unused_, entries_[unused_].next);
+  entries_[entry] = {h, kNone};
+  return entry;
+}
+
 void Front::push(Index h, State state, bool forced) {
   if (h >= queued_.size()) queued_.resize(mesh_.half_edge_slots());
   const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state.corners()), mesh_.length(h));
-  if (std::exchange(queued_[h], key) != key) queue_[key].push_back(h);
+  if (std::exchange(queued_[h], key) == key) return;
+  const Index entry = new_entry(h);
+  const auto line = std::lower_bound(lines_.begin(), lines_.end(), key,
+                                     [](const Line& one, Key wanted) { return one.key > wanted; });
+  if (line == lines_.end() || line->key != key)
+    lines_.insert(line, {key, entry, entry});
+  else
+    line->last = entries_[line->last].next = entry;
 }
 
 Index Front::pop() {
-  while (!queue_.empty()) {
-    auto& [key, waiting] = *queue_.begin();
-    if (waiting.empty()) {
-      queue_.erase(queue_.begin());
-      continue;
-    }
-    const Index h = waiting.front();
-    waiting.pop_front();
+  while (!lines_.empty()) {
+    Line& line = lines_.back();
+    const Key key = line.key;
+    const Index entry = line.first, h = entries_[entry].half_edge;
+    line.first = entries_[entry].next;
+    entries_[entry].next = std::exchange(unused_, entry);
+    if (line.first == kNone) lines_.pop_back();
     if (queued_[h] != key) continue;
     queued_[h] = 0;
     if (!mesh_.is_live_half_edge(h) || !contains(h)) continue;

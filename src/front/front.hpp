@@ -7,8 +7,6 @@
 /// the colours of loops and a queue.
 
 #include <cstdint>
-#include <deque>
-#include <map>
 #include <vector>
 
 #include "front/decisions.hpp"
@@ -99,6 +97,8 @@ class Front {
   bool was_forced() const { return popped_forced_; }
 
  private:
+  Index new_entry(Index h);
+
   /// The order of front edges, lowest first: level, then state, then length, in one number. Lengths of one class count
   /// as equal, so that neighbours come one after another, which is good for rows and for caches. Never 0.
   using Key = std::uint32_t;
@@ -110,7 +110,17 @@ class Front {
   LoggedColumn<unsigned> levels_;
   /// By half-edge: the key of the entry that counts, 0 for none; other entries are passed over.
   std::vector<Key> queued_;
-  std::map<Key, std::deque<Index>> queue_;  ///< half-edges by key, of equal keys the oldest first
+  /// Half-edges of one key, the oldest first: entries that are linked from `first` to `last`.
+  struct Line {
+    Key key;
+    Index first, last;
+  };
+  struct Entry {
+    Index half_edge, next;
+  };
+  std::vector<Line> lines_;  ///< by key, the lowest last; none is empty
+  std::vector<Entry> entries_;
+  Index unused_ = kNone;  ///< the first of the entries that are in no line
   bool popped_forced_ = false;
 };
 
