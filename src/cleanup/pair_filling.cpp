@@ -71,6 +71,28 @@ PairFilling filling_at(const Corners& corners, const Place& place, const std::ar
   return filling;
 }
 
+/// Places from the first to before the end, in both directions.
+struct Places {
+  int first_across, end_across, first_up, end_up, to_cut;
+
+  bool is_empty() const { return first_across >= end_across || first_up >= end_up; }
+};
+
+/// Whether the fillings at some places have less than `fewest` quads all, or all more than `most`: their number is
+/// linear in both directions, so that those in the corners tell.
+bool are_out_of(const Corners& corners, const Places& places, double fewest, double most) {
+  bool are_few = true, are_many = true;
+  for (int across : {places.first_across, places.end_across - 1})
+    for (int up : {places.first_up, places.end_up - 1}) {
+      const Place place{across, up, places.to_cut};
+      const auto spokes = pentagon_spokes(pentagon_sides(corners, place));
+      if (!spokes) return false;
+      const double count = quads_between(place, *spokes);
+      are_few = are_few && count < fewest, are_many = are_many && count > most;
+    }
+  return are_few || are_many;
+}
+
 /// The point of the outline's inside that is so far, in shares of the sides, from the first corner.
 Vec2 point_at(const Corners& corners, const std::vector<Vec2>& outline, double u, double v) {
   const auto at = [&](int i) { return outline[corners.place[i]]; };
@@ -97,9 +119,17 @@ std::optional<PairChoice> pair_filling_between(const std::array<int, 4>& corner_
   const double diagonals =
       0.5 * ((point_at(corners, wish.outline, 1, 1) - point_at(corners, wish.outline, 0, 0)).squaredNorm() +
              (point_at(corners, wish.outline, 1, 0) - point_at(corners, wish.outline, 0, 1)).squaredNorm());
+  // Beyond the ends the second or the third spoke of the pentagon would have no length.
+  const Places places{std::max(1, 1 + along), std::min(side[0] - to_cut, (side[0] + side[1] + side[2] - side[3]) / 2),
+                      std::max(1, 1 - along), std::min(side[3] - to_cut, (side[1] + side[2] + side[3] - side[0]) / 2),
+                      to_cut};
+  constexpr double kRounding = 1e-9;
+  if (places.is_empty() || are_out_of(corners, places, (1 - kRounding) * wish.size.fewest * wish.quads_wanted,
+                                      (1 + kRounding) * wish.size.most * wish.quads_wanted))
+    return {};
   std::optional<PairChoice> best;
-  for (int up = std::max(1, 1 - along); up + to_cut < side[3]; ++up)
-    for (int across = std::max(1, 1 + along); across + to_cut < side[0]; ++across) {
+  for (int up = places.first_up; up < places.end_up; ++up)
+    for (int across = places.first_across; across < places.end_across; ++across) {
       const Place place{across, up, to_cut};
       const auto spokes = pentagon_spokes(pentagon_sides(corners, place));
       if (!spokes) continue;

@@ -104,3 +104,10 @@ TEST_CASE("pair filling: the pair lies where it is asked for, as far as sizes al
     CHECK(middle.dot(place) > 0);
   }
 }
+
+TEST_CASE("pair filling: long sides that enclose far more quads than wanted are no work") {
+  constexpr int kLong = 40'000;  // as many places, squared, would take a minute
+  const int n = 4 * kLong + 8;
+  const PairWish wish{std::vector<Vec2>(std::size_t(n), Vec2::Zero()), Vec2::Zero(), double(n), {}};
+  CHECK(!pair_filling_between({0, kLong + 4, 2 * kLong + 4, 3 * kLong + 8}, wish));
+}
