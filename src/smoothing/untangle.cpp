@@ -157,12 +157,16 @@ bool untangle_node(kernel::Mesh& mesh, Index v) {
 
 namespace {
 
+constexpr double kNoFloor = -std::numeric_limits<double>::infinity();
+
 /// Sine of the corner, or less where its edges differ in length by more than about twenty times: the sine alone
-/// would let a node fall onto its neighbour.
-double guarded_sine(const Vec2& at, const Vec2& to_next, const Vec2& to_previous) {
-  constexpr double kLengthGuard = 10;
+/// would let a node fall onto its neighbour. Any that is not above `floor` if the sine is not; most places that are
+/// tried are told by that, without a root.
+double guarded_sine(const Vec2& at, const Vec2& to_next, const Vec2& to_previous, double floor) {
+  constexpr double kLengthGuard = 10, kSurely = 1 - 1e-12;
   const Vec2 a = to_next - at, b = to_previous - at;
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), area = cross(a, b);
+  if (floor >= 0 && (area <= 0 || area * area < kSurely * floor * floor * aa * bb)) return floor;
   if (!(aa * bb > 0)) return -1;
   const double sine = area / std::sqrt(aa * bb);
   return std::min(sine, kLengthGuard * 2 * area / (aa + bb));
@@ -185,9 +189,9 @@ class Corners {
     for (const Element& e : elements_) {
       ++work_;
       if (!(least > floor)) break;
-      const double at_node = guarded_sine(p, e.q, e.r), at_q = guarded_sine(e.q, e.after_q, p),
-                   at_r = guarded_sine(e.r, p, e.before_r);
-      least = std::min(std::min(least, at_node), std::min(at_q, at_r));
+      least = std::min(least, guarded_sine(p, e.q, e.r, floor));
+      if (least > floor) least = std::min(least, guarded_sine(e.q, e.after_q, p, floor));
+      if (least > floor) least = std::min(least, guarded_sine(e.r, p, e.before_r, floor));
     }
     return least;
   }
@@ -204,7 +208,7 @@ class Corners {
                          mesh.point(mesh.origin(last)), mesh.point(mesh.origin(to_v))});
     for (Index e = mesh.next(mesh.next(h)); e != to_v; e = mesh.next(e))
       still_ = std::min(still_, guarded_sine(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)),
-                                             mesh.point(mesh.origin(mesh.prev(e)))));
+                                             mesh.point(mesh.origin(mesh.prev(e))), kNoFloor));
   }
 
   std::vector<Element> elements_;
@@ -229,7 +233,7 @@ bool raise_smallest_sine(kernel::Mesh& mesh, Index v, std::size_t& work) {
   Corners corners(mesh, v);
   const Vec2 start = mesh.point(v);
   Vec2 best = start;
-  double best_sine = corners.smallest(best, -std::numeric_limits<double>::infinity());
+  double best_sine = corners.smallest(best, kNoFloor);
   double step = kFirstStep * shortest_edge(mesh, v);
   for (int shrinking = 0, rounds = 0; shrinking < kShrinkings && rounds < kMostRounds; ++rounds) {
     const Vec2 centre = best;
