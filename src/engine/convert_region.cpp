@@ -276,6 +276,7 @@ class RegionConverter {
     Pipeline pipeline(result.options, result.report, result.record, input_, result.allowed);
     if (result.is_quick) pipeline.clean_further(result.mesh);
     pipeline.polish(result.mesh);
+    if (!plane_.curved) pipeline.open_tips(result.mesh);
     cost_ += result.mesh.work() - before;
     if (is_small_) raise_corners(result.mesh, options_.smoothing);
     if (is_small_ && wants_stages(result.options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
