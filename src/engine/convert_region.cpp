@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_blade.hpp"
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
@@ -136,17 +137,19 @@ class RegionConverter {
     }
   }
 
-  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth
-  /// more and the worst is no worse.
+  /// A poor region without room for nodes inside as the best quads between those of its boundary, or one that runs out
+  /// in a sharp corner as rows from there, if they are worth more and the worst is no worse.
   void take_chords(Attempt& best) {
     constexpr double kPoor = 0.3;
-    const Worth worth = judge(best.mesh);
-    if (best.fault || worth.least >= kPoor) return;
-    auto chords = bands::lay_chords(region_);
-    if (!chords) return;
-    Attempt laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
-    finish(laid);
-    if (!laid.fault && is_better(judge(laid.mesh), worth)) best = std::move(laid);
+    for (const auto lay : {bands::lay_chords, bands::lay_blade}) {
+      const Worth worth = judge(best.mesh);
+      if (best.fault || worth.least >= kPoor) return;
+      auto laid_mesh = lay(region_);
+      if (!laid_mesh) continue;
+      Attempt laid = begin(std::move(*laid_mesh), options_, allowed_ - double(cost_), Way::without_front);
+      finish(laid);
+      if (!laid.fault && is_better(judge(laid.mesh), worth)) best = std::move(laid);
+    }
   }
 
   Attempt pair_triangles() {
