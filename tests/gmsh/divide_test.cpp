@@ -286,3 +286,33 @@ TEST_CASE("divide: circles that are as coarse as allowed can get one segment mor
   REQUIRE(circle != mesh.entities.end());
   CHECK(circle->element_count() == 8);  // of Gmsh: 7
 }
+
+TEST_CASE("divide: both sides of a crescent get as many segments, and only the quads in its tips are poor") {
+  const auto [snapshot, worst] = convert(R"(SetFactory("OpenCASCADE");
+    Disk(1) = {0, 0, 0, 1}; Disk(2) = {0.1, 0, 0, 1};
+    BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }
+    Mesh.MeshSizeMax = 0.2;)");
+  CHECK(segments(snapshot, 1) == segments(snapshot, 2));
+  CHECK(worst > 0.09);  // the sine of the tips' angle between chords is 0.094
+}
+
+TEST_CASE("divide: a circle that touches another one from inside") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", R"(SetFactory("OpenCASCADE");
+    Disk(1) = {0, 0, 0, 1}; Disk(2) = {0.15, 0, 0, 0.85};
+    BooleanDifference{ Surface{1}; Delete; }{ Surface{2}; Delete; }
+    Mesh.MeshSizeMax = 0.2;)");
+  REQUIRE(run_qmorph({directory / "in.geo", "-o", directory / "out.msh", "--stats", directory / "out.json"}).status ==
+          0);
+  const auto total = nlohmann::json::parse(read_file(directory / "out.json"))["total"];
+  CHECK(total["triangles"] == 0);
+  // Two in the cusp, of an angle of one degree between chords.
+  CHECK(total["scaled_jacobian"]["share_below_0.3"].get<double>() * total["quads"].get<double>() < 4.5);
+}
+
+TEST_CASE("divide: a seam whose only segment is an edge of another surface does not leave that odd") {
+  convert(R"(SetFactory("OpenCASCADE");
+    Torus(1) = {0, 0, 0, 1, 0.4}; Box(2) = {0.62, -3, -3, 4, 6, 6};
+    BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+    Mesh.MeshSizeMax = 0.4;)");
+}
