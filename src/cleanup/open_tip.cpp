@@ -57,7 +57,7 @@ constexpr double kTip = 45 * std::numbers::pi / 180, kStrained = 135 * std::numb
 
 /// A tip is opened for this, which two irregular nodes are worth.
 bool is_clearly_better(const Worth& before, const Worth& after) {
-  constexpr double kFactor = 1.5;
+  constexpr double kFactor = 1.2;
   return after.worst > kFactor * before.worst;
 }
 

@@ -148,8 +148,19 @@ class RegionConverter {
       if (!laid_mesh) continue;
       Attempt laid = begin(std::move(*laid_mesh), options_, allowed_ - double(cost_), Way::without_front);
       finish(laid);
-      if (!laid.fault && is_better(judge(laid.mesh), worth)) best = std::move(laid);
+      if (laid.fault || !is_better(judge(laid.mesh), worth)) continue;
+      // Rows of a crescent are long and thin anyway; then right angles are what is left to gain.
+      if (lay == bands::lay_blade && mean_sine(laid.mesh) < mean_sine(best.mesh)) continue;
+      best = std::move(laid);
     }
+  }
+
+  static double mean_sine(const kernel::Mesh& mesh) {
+    double sum = 0;
+    std::size_t faces = 0;
+    for (Index f = 0; f < mesh.face_slots(); ++f)
+      if (mesh.is_live_face(f)) sum += mesh.smallest_sine(f), ++faces;
+    return sum / double(std::max<std::size_t>(1, faces));
   }
 
   Attempt pair_triangles() {
