@@ -324,3 +324,16 @@ TEST_CASE("divide: where two curves come close and part again, nodes face each o
     Mesh.MeshSizeMax = 0.36171;)");
   CHECK(worst > 0.3);
 }
+
+TEST_CASE("divide: closed curves that come close to others get a node there, too") {
+  for (const char* holes : {"Disk(2) = {-0.7, 0, 0, 0.68}; Disk(3) = {0.7, 0.1, 0, 0.7};",
+                            "Disk(2) = {1.16, 0.3, 0, 0.78}; Disk(3) = {-1.27, 0, 0, 0.7};"}) {
+    CAPTURE(holes);
+    const auto [snapshot, worst] = convert(fmt::format(R"(SetFactory("OpenCASCADE");
+      Rectangle(1) = {{-2, -2, 0, 4, 4}}; {}
+      BooleanDifference{{ Surface{{1}}; Delete; }}{{ Surface{{2, 3}}; Delete; }}
+      Mesh.MeshSizeMax = 0.25;)",
+                                                       holes));
+    CHECK(worst > 0.5);
+  }
+}

@@ -42,7 +42,7 @@ class Cutter {
       Box box;
       for (const Vector3d& p : curve.points) box.extend(p);
       boxes_.push_back(box);
-      if (curve.segments == 0 || curve.ends[0] == curve.ends[1]) may_cut_[c] = false;
+      if (curve.segments == 0) may_cut_[c] = false;
     }
   }
 

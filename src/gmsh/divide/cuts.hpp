@@ -11,7 +11,7 @@
 namespace qmorph::adapter {
 
 /// The model with such curves in pieces, which have the curve's tag and follow one another. The points between pieces
-/// have tags of their own, below 0. Curves for which `may_cut` is false, closed ones and those with images stay whole.
+/// have tags of their own, below 0. Curves for which `may_cut` is false and those with images stay whole.
 CurveModel cut_at_narrow_places(const CurveModel& model, const std::vector<bool>& may_cut);
 
 }  // namespace qmorph::adapter
