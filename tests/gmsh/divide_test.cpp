@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gmsh/divide/crossings.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
@@ -336,4 +337,20 @@ TEST_CASE("divide: closed curves that come close to others get a node there, too
                                                        holes));
     CHECK(worst > 0.5);
   }
+}
+
+TEST_CASE("divide: ends of curves that differ by the tolerance of the geometry do not make a boundary cross itself") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    ::gmsh::model::occ::addRectangle(0, 0, 0, 1, 1);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::option::setNumber("Mesh.MeshSizeMax", 0.25);
+    std::optional<adapter::CurveModel> model = adapter::divide_as_wished({1});
+    REQUIRE(model);
+    const std::vector<int> segments(model->curves.size(), 4);
+    CHECK(!adapter::crosses_itself(*model, model->surfaces[0], segments));
+    model->curves[0].points.front() += Eigen::Vector3d(-1e-5, 1e-5, 0);
+    CHECK(!adapter::crosses_itself(*model, model->surfaces[0], segments));
+    ::gmsh::model::mesh::generate(2);
+  });
 }
