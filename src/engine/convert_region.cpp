@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "bands/lay_blade.hpp"
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
 #include "engine/ear.hpp"
@@ -136,17 +137,30 @@ class RegionConverter {
     }
   }
 
-  /// A poor region without room for nodes inside as the best quads between those of its boundary, if they are worth
-  /// more and the worst is no worse.
+  /// A poor region without room for nodes inside as the best quads between those of its boundary, or one that runs out
+  /// in a sharp corner as rows from there, if they are worth more and the worst is no worse.
   void take_chords(Attempt& best) {
     constexpr double kPoor = 0.3;
-    const Worth worth = judge(best.mesh);
-    if (best.fault || worth.least >= kPoor) return;
-    auto chords = bands::lay_chords(region_);
-    if (!chords) return;
-    Attempt laid = begin(std::move(*chords), options_, allowed_ - double(cost_), Way::without_front);
-    finish(laid);
-    if (!laid.fault && is_better(judge(laid.mesh), worth)) best = std::move(laid);
+    for (const auto lay : {bands::lay_chords, bands::lay_blade}) {
+      const Worth worth = judge(best.mesh);
+      if (best.fault || worth.least >= kPoor) return;
+      auto laid_mesh = lay(region_);
+      if (!laid_mesh) continue;
+      Attempt laid = begin(std::move(*laid_mesh), options_, allowed_ - double(cost_), Way::without_front);
+      finish(laid);
+      if (laid.fault || !is_better(judge(laid.mesh), worth)) continue;
+      // Rows of a crescent are long and thin anyway; then right angles are what is left to gain.
+      if (lay == bands::lay_blade && mean_sine(laid.mesh) < mean_sine(best.mesh)) continue;
+      best = std::move(laid);
+    }
+  }
+
+  static double mean_sine(const kernel::Mesh& mesh) {
+    double sum = 0;
+    std::size_t faces = 0;
+    for (Index f = 0; f < mesh.face_slots(); ++f)
+      if (mesh.is_live_face(f)) sum += mesh.smallest_sine(f), ++faces;
+    return sum / double(std::max<std::size_t>(1, faces));
   }
 
   Attempt pair_triangles() {
@@ -276,6 +290,7 @@ class RegionConverter {
     Pipeline pipeline(result.options, result.report, result.record, input_, result.allowed);
     if (result.is_quick) pipeline.clean_further(result.mesh);
     pipeline.polish(result.mesh);
+    if (!plane_.curved) pipeline.open_tips(result.mesh);
     cost_ += result.mesh.work() - before;
     if (is_small_) raise_corners(result.mesh, options_.smoothing);
     if (is_small_ && wants_stages(result.options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cleanup/clean_up.hpp"
+#include "cleanup/open_tip.hpp"
 #include "cleanup/patterns/pattern_cleanup.hpp"
 #include "cleanup/repair.hpp"
 #include "cleanup/replace_cavities.hpp"
@@ -163,6 +164,13 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   if (options_.smoothing.method == SmoothingMethod::shape_energy && !smoothing::snap_to_grid(mesh))
     smoothing::raise_worst_corners(mesh, options_.smoothing, until(mesh, 1));
   progress("smoothing", 1);
+  end_stage(Stage::repair, mesh, report_.cleanup_seconds);
+}
+
+void Pipeline::open_tips(kernel::Mesh& mesh) {
+  if (cleanup::open_tips(mesh, options_.smoothing) == 0) return;
+  if (options_.smoothing.method == SmoothingMethod::shape_energy)
+    smoothing::raise_worst_corners(mesh, options_.smoothing, until(mesh, 1));
   end_stage(Stage::repair, mesh, report_.cleanup_seconds);
 }
 

@@ -37,6 +37,8 @@ class Pipeline {
   void clean_further(kernel::Mesh& mesh);
   void clean_near(kernel::Mesh& mesh, const std::vector<Index>& interface);
   void polish(kernel::Mesh& mesh);
+  /// After polish(), where the boundary is not an interface: cleanup/open_tip.hpp.
+  void open_tips(kernel::Mesh& mesh);
 
  private:
   /// Until all stages together have cost this share of what they may.

@@ -159,28 +159,35 @@ TEST_CASE("layers of Gmsh: even where its own quads would enclose an odd fan, no
   }
 }
 
+namespace {
+
+void add_stretched_surface(int tag) {
+  // Equilateral triangles, stretched 20 to 1, and no rows that stand on a wall.
+  std::vector<std::size_t> nodes, triangles, corners;
+  std::vector<double> xyz;
+  constexpr int kRows = 12, kColumns = 24;
+  const std::size_t first = 1000 * (tag - 1) + 1;
+  for (int j = 0; j <= kRows; ++j)
+    for (int i = 0; i <= kColumns; ++i) {
+      nodes.push_back(first + nodes.size());
+      xyz.insert(xyz.end(), {20 * (i + 0.5 * j), 0.87 * j, 10.0 * tag});
+    }
+  for (int j = 0; j < kRows; ++j)
+    for (int i = 0; i < kColumns; ++i) {
+      const std::size_t a = first + j * (kColumns + 1) + i, d = a + kColumns + 1;
+      corners.insert(corners.end(), {a, a + 1, d, a + 1, d + 1, d});
+    }
+  gmsh::model::addDiscreteEntity(2, tag);
+  gmsh::model::mesh::addNodes(2, tag, nodes, xyz);
+  for (std::size_t i = 0; i < corners.size() / 3; ++i) triangles.push_back(first + i);
+  gmsh::model::mesh::addElementsByType(tag, 2, triangles, corners);
+}
+
+}  // namespace
+
 TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, and a warning and --check say so") {
   const TemporaryDirectory directory;
-  make_msh(directory / "in.msh", 4.1, false, [] {
-    // Equilateral triangles, stretched 20 to 1, and no rows that stand on a wall.
-    std::vector<std::size_t> nodes, triangles, corners;
-    std::vector<double> xyz;
-    constexpr int kRows = 12, kColumns = 24;
-    for (int j = 0; j <= kRows; ++j)
-      for (int i = 0; i <= kColumns; ++i) {
-        nodes.push_back(nodes.size() + 1);
-        xyz.insert(xyz.end(), {20 * (i + 0.5 * j), 0.87 * j, 0});
-      }
-    for (int j = 0; j < kRows; ++j)
-      for (int i = 0; i < kColumns; ++i) {
-        const std::size_t a = j * (kColumns + 1) + i + 1, d = a + kColumns + 1;
-        corners.insert(corners.end(), {a, a + 1, d, a + 1, d + 1, d});
-      }
-    gmsh::model::addDiscreteEntity(2, 1);
-    gmsh::model::mesh::addNodes(2, 1, nodes, xyz);
-    for (std::size_t i = 0; i < corners.size() / 3; ++i) triangles.push_back(i + 1);
-    gmsh::model::mesh::addElementsByType(1, 2, triangles, corners);
-  });
+  make_msh(directory / "in.msh", 4.1, false, [] { add_stretched_surface(1); });
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--layers=off"});
   CHECK(mentions(result.err, "warning: surface 1: its quads are "));
   const Result judged =
@@ -190,6 +197,18 @@ TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, and a warning 
   CHECK(mentions(judged.err, "qmorph: surface 1: its quads are "));
   CHECK(mentions(judged.out, "; size "));
   CHECK(run_qmorph({"--check", directory / "out.msh", "--against", directory / "in.msh"}).status == 0);
+}
+
+TEST_CASE("messages: a warning that many surfaces have, but for its numbers, is one line") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    for (int tag = 1; tag <= 5; ++tag) add_stretched_surface(tag);
+  });
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--layers=off"});
+  CAPTURE(result.err);
+  CHECK(mentions(result.err, "warning: surface 1: its quads are "));
+  CHECK(mentions(result.err, "; the like of 4 others: 2, 3, 4, 5\n"));
+  CHECK(!mentions(result.err, "warning: surface 2"));
 }
 
 TEST_CASE("layers of Gmsh: where rows end at a steep side, most quads are good all the same") {

@@ -88,3 +88,28 @@ TEST_CASE("sheets: two between the same curves may have the same triangle at a c
     CHECK(quads > 10);
   }
 }
+
+TEST_CASE("sheets: an edge that two happen to have inside does not part them, and nothing is odd") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    // Two surfaces with a curve of two segments between them; in each a triangle cuts it off.
+    ::gmsh::model::addDiscreteEntity(0, 1);
+    ::gmsh::model::addDiscreteEntity(0, 2);
+    ::gmsh::model::addDiscreteEntity(1, 1, {1, 2});
+    for (const int surface : {1, 2}) ::gmsh::model::addDiscreteEntity(2, surface, {1});
+    ::gmsh::model::mesh::addNodes(0, 1, {1}, {0, 0, 0});
+    ::gmsh::model::mesh::addNodes(0, 2, {2}, {1, 0, 0});
+    ::gmsh::model::mesh::addNodes(1, 1, {3}, {0.5, 0.3, 0});
+    ::gmsh::model::mesh::addNodes(2, 1, {4}, {0.5, -0.8, 0.3});
+    ::gmsh::model::mesh::addNodes(2, 2, {5}, {0.5, -0.8, -0.3});
+    ::gmsh::model::mesh::addElementsByType(1, 1, {1, 2}, {1, 3, 3, 2});
+    ::gmsh::model::mesh::addElementsByType(1, 2, {3, 4}, {1, 2, 3, 1, 4, 2});
+    ::gmsh::model::mesh::addElementsByType(2, 2, {5, 6}, {1, 2, 3, 1, 5, 2});
+  });
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--all-quad"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  const Snapshot after = read_snapshot(directory / "out.msh");
+  CHECK(after.mesh.tags.size() == 5);
+  for (const int surface : {1, 2}) CHECK(element_counts(after, surface) == std::pair<std::size_t, std::size_t>(0, 1));
+}

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <ostream>
 #include <string_view>
@@ -60,6 +61,44 @@ void print_once(std::string_view prefix, const std::vector<std::string>& lines, 
   }
 }
 
+/// Warnings that only numbers tell apart are of a kind: of a kind that many surfaces have, the first one is printed, with
+/// the tags of the others.
+class SurfaceWarnings {
+ public:
+  explicit SurfaceWarnings(const std::vector<SurfaceReport>& surfaces) {
+    for (const SurfaceReport& surface : surfaces)
+      for (const std::string& warning : surface.warnings) {
+        std::vector<int>& tags = of_kind_[kind_of(warning)];
+        if (tags.empty() || tags.back() != surface.tag) tags.push_back(surface.tag);
+      }
+  }
+
+  void print(const SurfaceReport& surface, std::ostream& err) const {
+    constexpr std::size_t kMany = 4, kMostNamed = 10;
+    for (const std::string& warning : surface.warnings) {
+      const std::vector<int>& tags = of_kind_.at(kind_of(warning));
+      const bool are_many = tags.size() >= kMany;
+      if (are_many && tags.front() != surface.tag) continue;
+      err << "warning: surface " << surface.tag << ": " << warning;
+      if (are_many) {
+        const std::size_t named = std::min(kMostNamed, tags.size() - 1);
+        err << fmt::format("; the like of {} others: {}{}", tags.size() - 1,
+                           fmt::join(tags.begin() + 1, tags.begin() + 1 + std::ptrdiff_t(named), ", "),
+                           named < tags.size() - 1 ? ", ..." : "");
+      }
+      err << '\n';
+    }
+  }
+
+ private:
+  static std::string kind_of(std::string warning) {
+    std::erase_if(warning, [](char c) { return c >= '0' && c <= '9'; });
+    return warning;
+  }
+
+  std::map<std::string, std::vector<int>> of_kind_;
+};
+
 }  // namespace
 
 std::string name_of_input(const Request& request) { return request.from_stdin ? "standard input" : request.input; }
@@ -83,10 +122,10 @@ void print_summary(const Request& request, const adapter::OpenedModel& opened, c
   if (request.verbosity >= 2) print_once("Gmsh: ", opened.warnings, err);
   if (request.verbosity >= 1) {
     for (const std::string& warning : model.warnings) err << "warning: " << warning << '\n';
+    const SurfaceWarnings warnings(model.surfaces);
     for (const SurfaceReport& surface : model.surfaces) {
       err << report::surface_line(surface) << '\n';
-      for (const std::string& warning : surface.warnings)
-        err << "warning: surface " << surface.tag << ": " << warning << '\n';
+      warnings.print(surface, err);
     }
     const std::string division = report::division_line(facts.division, facts.mended);
     if (!division.empty()) err << division << '\n';

@@ -89,6 +89,7 @@ std::optional<kernel::Mesh> convert_in_parts(kernel::Mesh start, const kernel::M
       record.stages[std::size_t(stage)] = join_stage(whole, parts, results, stage);
   pipeline.clean_near(mesh, division.interface);
   pipeline.polish(mesh);
+  if (!plane.curved) pipeline.open_tips(mesh);
   return mesh;
 }
 

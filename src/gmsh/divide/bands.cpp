@@ -39,6 +39,8 @@ class BandFinder {
   bool is_near(const Chain& from, const Chain& to, double most) const;
   bool face(const Chain& a, const Chain& b) const;
 
+  bool add_crescent(const Chain& loop);
+  void add_pinched_ring(const std::vector<Index>& boundary);
   bool add_strip(const Chain& loop);
   void add_four_sides(const Chain& loop);
   void add_ring(const Chain& a, const Chain& b);
@@ -153,6 +155,29 @@ std::vector<Band> BandFinder::in_pieces(const Chain& a, const Chain& b) const {
   return pieces;
 }
 
+/// Two sides that meet in two tips. With as many segments on each, nodes that are as far from a tip face each other;
+/// otherwise chords of the one cross the other where it is thinner than an arch is high.
+bool BandFinder::add_crescent(const Chain& loop) {
+  constexpr double kTipTurn = 130;  // degrees
+  const std::vector<std::size_t> tips = corners_of(model_, loop, kTipTurn);
+  if (tips.size() != 2) return false;
+  const Chain a = part(loop, tips[0], tips[1]), b = reversed(part(loop, tips[1], tips[0]));
+  if (!face(a, b)) return false;
+  for (Band& piece : in_pieces(a, b)) bands_.push_back(std::move(piece));
+  return true;
+}
+
+/// Two closed curves with a common point, where a circle touches another from inside: both tips are there.
+void BandFinder::add_pinched_ring(const std::vector<Index>& boundary) {
+  if (boundary.size() != 2 || boundary[0] == boundary[1]) return;
+  const int tip = curve(boundary[0]).ends[0];
+  for (Index c : boundary)
+    for (int end : curve(c).ends)
+      if (end != tip) return;
+  const Chain a{{boundary[0], false}}, b{{boundary[1], false}};
+  if (face(a, b)) add(a, b);
+}
+
 /// Two curves of the loop are the ends. Of several ways the one with the most equal sides.
 bool BandFinder::add_strip(const Chain& loop) {
   if (loop.size() < 4 || loop.size() > kMostCurvesOfStrip) return false;
@@ -255,7 +280,8 @@ void BandFinder::look_at(Index surface) {
   const std::vector<Chain> loops = loops_of(model_, boundary);
   const std::size_t before = bands_.size();
   if (loops.size() == 2) add_ring(loops[0], loops[1]);
-  if (loops.size() == 1 && !add_strip(loops[0])) add_four_sides(loops[0]);
+  if (loops.size() == 1 && !add_crescent(loops[0]) && !add_strip(loops[0])) add_four_sides(loops[0]);
+  if (loops.empty()) add_pinched_ring(boundary);
   if (bands_.size() > before) return;
   surface_ = kNone;  // the rest of the surface has a part in the band's ends
   add_pairs(boundary);

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "geometry/predicates.hpp"
 
@@ -54,14 +55,18 @@ bool crosses_itself(const CurveModel& model, const BoundedSurface& surface, cons
   std::vector<std::array<Vector3d, 2>> sides;
   std::vector<bool> starts_inside;  // by side: whether it starts at a node inside of its curve
   std::vector<Index> curve_of;
+  // Curves end in a point within the geometry's tolerance only, which may be more than kSame of a segment.
+  std::map<int, Vector3d> place_of;
+  const auto at = [&](int point, const Vector3d& p) { return place_of.try_emplace(point, p).first->second; };
   for (Index c : surface.boundary) {
     const DividedCurve& curve = model.curves[c];
     if (curve.points.empty()) continue;
-    Vector3d before = curve.points.front();
+    const Vector3d first = at(curve.ends[0], curve.points.front());
+    Vector3d before = first;
     std::vector<Vector3d> points = points_at(curve, parameters_for(curve, segments[c]));
-    points.push_back(curve.points.back());
+    points.push_back(at(curve.ends[1], curve.points.back()));
     for (const Vector3d& p : points) {
-      starts_inside.push_back(before != curve.points.front());
+      starts_inside.push_back(before != first);
       curve_of.push_back(c);
       sides.push_back({before, p});
       before = p;

@@ -42,7 +42,7 @@ class Cutter {
       Box box;
       for (const Vector3d& p : curve.points) box.extend(p);
       boxes_.push_back(box);
-      if (curve.segments == 0 || curve.ends[0] == curve.ends[1]) may_cut_[c] = false;
+      if (curve.segments == 0) may_cut_[c] = false;
     }
   }
 
@@ -70,6 +70,39 @@ class Cutter {
     for (Index c : surface.boundary)
       if (may_cut_[c])
         for (const auto& [point, place] : corners) look_at(c, point, place);
+    for (std::size_t i = 0; i < surface.boundary.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) look_for_neck(surface.boundary[i], surface.boundary[j]);
+  }
+
+  /// Where two curves come close to each other and part again, both get a node there, so that the next ones face each
+  /// other, too.
+  void look_for_neck(Index c, Index d) {
+    constexpr std::size_t kMostPoints = 2000;  // each is compared with each
+    constexpr int kAway = 2;                   // in sizes: there the curves have parted
+    const DividedCurve &one = model_.curves[c], &other = model_.curves[d];
+    if (c == d || !may_cut_[c] || !may_cut_[d] || one.points.size() + other.points.size() > kMostPoints) return;
+    for (int end : one.ends)
+      if (end == other.ends[0] || end == other.ends[1]) return;
+    const double size = std::min(one.size(), other.size()), thin = kThin * size;
+    if (boxes_[c].exteriorDistance(boxes_[d]) > thin) return;
+    std::vector<double> gaps;
+    for (const Vector3d& p : one.points) gaps.push_back(nearest_on(other, p).second);
+    const auto neck = std::size_t(std::min_element(gaps.begin(), gaps.end()) - gaps.begin());
+    const auto away = std::size_t(std::lround(kAway * finer_in_size(one)));
+    if (gaps[neck] > thin || neck < away || neck + away >= gaps.size()) return;
+    if (std::min(gaps[neck - away], gaps[neck + away]) < gaps[neck] + thin) return;  // a band
+    add(c, double(neck));
+    add(d, nearest_on(other, one.points[neck]).first);
+  }
+
+  /// A cut, if no piece becomes too short.
+  void add(Index c, double at) {
+    const DividedCurve& curve = model_.curves[c];
+    const double shortest = kShortest * finer_in_size(curve);
+    if (at < shortest || at > curve.finer - shortest) return;
+    std::vector<double>& cuts = cuts_[c];
+    const auto is_near = [&](double cut) { return std::abs(cut - at) < shortest; };
+    if (std::none_of(cuts.begin(), cuts.end(), is_near)) cuts.push_back(at);
   }
 
   void look_at(Index c, int point, const Vector3d& place) {
@@ -77,11 +110,7 @@ class Cutter {
     const double thin = kThin * curve.size();
     if (point == curve.ends[0] || point == curve.ends[1] || boxes_[c].exteriorDistance(place) > thin) return;
     const auto [at, distance] = nearest_on(curve, place);
-    const double shortest = kShortest * finer_in_size(curve);
-    if (distance > thin || at < shortest || at > curve.finer - shortest) return;
-    std::vector<double>& cuts = cuts_[c];
-    const auto is_near = [&, here = at](double other) { return std::abs(other - here) < shortest; };
-    if (std::none_of(cuts.begin(), cuts.end(), is_near)) cuts.push_back(at);
+    if (distance <= thin) add(c, at);
   }
 
   CurveModel write() {
@@ -161,7 +190,7 @@ class Cutter {
 
 }  // namespace
 
-CurveModel cut_at_facing_corners(const CurveModel& model, const std::vector<bool>& may_cut) {
+CurveModel cut_at_narrow_places(const CurveModel& model, const std::vector<bool>& may_cut) {
   return Cutter(model, may_cut).run();
 }
 

@@ -203,7 +203,7 @@ DivisionReport divide_curves(const DivisionTask& task) {
   std::optional<CurveModel> model = divide_as_wished(task.surfaces);
   if (!model) return {};
   DivisionReport report = report_on(*model);
-  model = cut_at_facing_corners(*model, may_change(*model, task));
+  model = cut_at_narrow_places(*model, may_change(*model, task));
   std::set<Index> stubborn;
   for (int round = 0; round < kRounds; ++round) {
     const IntervalPlan plan = parity::plan_intervals(pose(*model, task, stubborn));

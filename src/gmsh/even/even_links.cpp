@@ -168,7 +168,8 @@ class FindingRegions {
 
   RegionGraph run() {
     for_each_edge(sides_, [&](std::span<const SurfaceSide> edge) {
-      if (is_inside(edge)) joined_.unite(edge[0].triangle, edge[1].triangle);
+      if (!is_inside(edge)) return;
+      for (std::size_t k = 0; k < edge.size(); k += 2) joined_.unite(edge[k].triangle, edge[k + 1].triangle);
     });
     std::vector<Candidate> candidates;
     for_each_edge(sides_, [&](std::span<const SurfaceSide> edge) {
@@ -183,11 +184,14 @@ class FindingRegions {
   }
 
  private:
-  /// Between two triangles of one region.
+  /// Between two triangles of one region, in each of the surfaces that happen to have the edge.
   bool is_inside(std::span<const SurfaceSide> edge) const {
-    const SurfaceSide &s = edge.front(), &t = edge.back();
-    return edge.size() == 2 && s.triangle != kNone && t.triangle != kNone && s.surface == t.surface &&
-           !fixed_.contains(s.low, s.high);
+    if (edge.size() % 2 != 0 || !is_manifold(edge) || fixed_.contains(edge[0].low, edge[0].high)) return false;
+    for (std::size_t k = 0; k < edge.size(); k += 2) {
+      const SurfaceSide &s = edge[k], &t = edge[k + 1];
+      if (s.surface != t.surface || s.triangle == kNone || t.triangle == kNone) return false;
+    }
+    return true;
   }
 
   /// In each of the surfaces that meet here.

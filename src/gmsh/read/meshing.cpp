@@ -11,6 +11,7 @@
 #include <regex>
 #include <set>
 
+#include "gmsh/divide/curves.hpp"
 #include "gmsh/even/even_links.hpp"
 #include "gmsh/read/facing.hpp"
 #include "gmsh/session/compat.hpp"
@@ -265,14 +266,31 @@ StageLog generate_evenly(const MeshingTask& task, const Flags& flags, const std:
   return generate_all();
 }
 
-/// A curve of no surface, whose segments may happen to be edges in one: they stay, and part it.
+std::set<int> surfaces_at(int point) {
+  std::set<int> all;
+  std::vector<int> curves, surfaces, lower;
+  ::gmsh::model::getAdjacencies(0, point, curves, lower);
+  for (int curve : curves) {
+    ::gmsh::model::getAdjacencies(1, curve, surfaces, lower);
+    all.insert(surfaces.begin(), surfaces.end());
+  }
+  return all;
+}
+
+/// Whether a curve's segments may happen to be edges in a surface that it is not a part of: they stay, and part it.
+/// A curve of no surface may, and one whose only segment joins two points of another surface, as a short seam does.
 bool has_loose_curve() {
   ::gmsh::vectorpair curves;
   ::gmsh::model::getEntities(curves, 1);
   return std::any_of(curves.begin(), curves.end(), [](const auto& curve) {
     std::vector<int> surfaces, points;
     ::gmsh::model::getAdjacencies(1, curve.second, surfaces, points);
-    return surfaces.empty() && has_elements(1, curve.second);
+    if (surfaces.empty()) return has_elements(1, curve.second);
+    if (points.size() != 2 || count_segments(curve.second) != 1) return false;
+    const std::set<int> one = surfaces_at(points[0]), other = surfaces_at(points[1]);
+    return std::any_of(one.begin(), one.end(), [&](int surface) {
+      return other.count(surface) && std::find(surfaces.begin(), surfaces.end(), surface) == surfaces.end();
+    });
   });
 }
 
