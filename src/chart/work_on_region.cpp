@@ -297,6 +297,7 @@ class Worker {
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
     const Ground ground{background(), stretched_.empty() ? nullptr : ground_.field};
+    constexpr double kShares = 3;  // most windows need less than their share, some more
     bool changed = false;
     WindowBudget budget(window_allowance());
     while (is_any(waiting)) {
@@ -310,7 +311,7 @@ class Worker {
       const double allowed = std::max(0.0, budget.left());
       std::vector<WindowResult> reworked(windows.size());
       parallel::for_each_index(windows.size(), [&](std::size_t w) {
-        const double share = part_of(allowed, windows[w].faces.size(), faces, windows.size());
+        const double share = kShares * part_of(allowed, windows[w].faces.size(), faces, windows.size());
         reworked[w] = work(*windows[w].laid_out, options_, ground, share);
       });
       std::vector<Reworked> results;
