@@ -40,7 +40,7 @@ class Folds {
 };
 
 std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
-  constexpr double kLeastRise = 0.1;
+  constexpr double kLeastRise = 0.2;  // with less, normals of triangles beside those at a corner may say otherwise
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.faces(); ++f)
     if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !folds.are_under(f)) faces.push_back(f);
