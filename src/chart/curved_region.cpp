@@ -35,8 +35,8 @@ CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) 
   if (crease_angle < std::numbers::pi) find_tips(2 * std::numbers::pi * (1 - std::cos(crease_angle)));
 }
 
-/// Triangles that are long around a surface stand off it: the rows of a cylinder are pleats then, and some of their edges
-/// are sharp by chance. Creases of a shape run on, but for few nodes.
+/// Triangles that are long around a surface stand off it: the rows of a cylinder are pleats then, and some of their
+/// edges are sharp by chance. Creases of a shape run on, but for few nodes.
 void CurvedRegion::drop_creases_of_facets() {
   constexpr double kMost = 0.4;  // of the nodes inside that are on creases
   if (creases.empty()) return;

@@ -31,8 +31,8 @@ class MeshOnSurface {
   using Face = chart::Face;
 
   /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their
-  /// nodes stay. Mesh::near is brought to the right side of them. `whole` has no creases, since those who judge a result
-  /// later do not know of them. `stretched`, by triangle, is where shapes are not to be squares; it may be empty.
+  /// nodes stay. Mesh::near is brought to the right side of them. `whole` has no creases, since those who judge a
+  /// result later do not know of them. `stretched`, by triangle, is where shapes are not to be squares; may be empty.
   MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
                 WholeSurface whole, std::span<const char> stretched = {});
 

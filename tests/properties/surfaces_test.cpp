@@ -32,8 +32,8 @@ TEST_CASE("random surfaces: regions of a few triangles get more tries if the fir
   }
 }
 
-// One quad lay over an edge at which its surface turns by 78 degrees, between quads that stay, valid by the triangles on
-// this side of a constraint, and turned over by the nearest of all.
+// One quad lay over an edge at which its surface turns by 78 degrees, between quads that stay, valid by the triangles
+// on this side of a constraint, and turned over by the nearest of all.
 TEST_CASE("random surfaces: no corner leans back over an edge that turns sharply between quads that stay") {
   const Domain domain = random_surface(1716);
   CHECK(broken_invariants(domain.patch, convert(domain.patch).mesh).empty());
