@@ -30,8 +30,30 @@ CurvedRegion::CurvedRegion(const Patch& patch, Region cut, double crease_angle) 
   barriers = boundary_edges(region);
   background = std::make_unique<const space::Background>(points, region.triangles, barriers);
   creases = space::find_creases(*background, crease_angle);
+  drop_creases_of_facets();
   find_stretch();
   if (crease_angle < std::numbers::pi) find_tips(2 * std::numbers::pi * (1 - std::cos(crease_angle)));
+}
+
+/// Triangles that are long around a surface stand off it: the rows of a cylinder are pleats then, and some of their
+/// edges are sharp by chance. Creases of a shape run on, but for few nodes.
+void CurvedRegion::drop_creases_of_facets() {
+  constexpr double kMost = 0.4;  // of the nodes inside that are on creases
+  if (creases.empty()) return;
+  std::vector<Index> count(points.size(), 0);
+  for (const auto& [a, b] : creases) ++count[a], ++count[b];
+  std::vector<char> is_outer(points.size(), 0);
+  for (const auto& [a, b] : barriers) is_outer[a] = is_outer[b] = 1;
+  std::size_t inner = 0, on_creases = 0, ends = 0;
+  for (Index v = 0; v < points.size(); ++v) {
+    if (is_outer[v]) continue;
+    ++inner;
+    on_creases += count[v] > 0;
+    ends += count[v] > 0 && count[v] != 2;
+  }
+  if (!(double(ends) > kMost * double(on_creases))) return;
+  if (!stretch::has_inside(region.triangles.size(), points.size(), points.size() - inner)) return;
+  if (stretch::may_be_stretched(*background) && stretch::MetricField(*background).is_stretched()) creases.clear();
 }
 
 void CurvedRegion::find_stretch() {
@@ -99,9 +121,11 @@ SurfaceMesh CurvedRegion::start() const {
 
 std::vector<CurvedRegion> curved_regions(const Patch& patch, double crease_angle, std::size_t first_half) {
   std::vector<CurvedRegion> regions;
+  const auto beside = patch.quads.empty() ? nullptr : std::make_shared<const WholePatch>(patch);
   for (Region& region : cut_into_regions(patch, shadow(patch), EdgesOfMany::part)) {
     regions.emplace_back(patch, std::move(region), crease_angle);
     regions.back().first_half = first_half;
+    regions.back().beside = beside;
   }
   return regions;
 }

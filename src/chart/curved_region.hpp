@@ -5,9 +5,19 @@
 #include <memory>
 
 #include "chart/surface_mesh.hpp"
+#include "space/reference.hpp"
+#include "space/whole_surface.hpp"
 #include "stretch/metric_field.hpp"
 
 namespace qmorph::chart {
+
+/// A patch as a surface.
+struct WholePatch {
+  space::Reference reference;
+  space::SurfaceNormals normals;
+
+  explicit WholePatch(const Patch& patch) : reference(patch), normals(reference.surface) {}
+};
 
 struct CurvedRegion {
   /// As cut_into_regions() makes it; its points in the plane mean nothing.
@@ -23,10 +33,17 @@ struct CurvedRegion {
   /// quads, two and two.
   SurfaceMesh start() const;
   std::size_t first_half = std::size_t(-1);
+  std::shared_ptr<const WholePatch> beside;  ///< null if no quads lie beside it
+  /// The surface that it is a part of, with the quads of the patch that stay.
+  space::WholeSurface whole() const {
+    if (!beside) return {*background};
+    return {beside->reference.surface, {beside, &beside->normals}, region.row};
+  }
   /// How the triangles are stretched; null if they are not.
   const stretch::MetricField* stretch() const { return stretch_.get(); }
 
  private:
+  void drop_creases_of_facets();
   void find_tips(double least);
   void find_stretch();
 

@@ -298,7 +298,8 @@ Flattening flatten(const space::Background& surface, std::size_t points, int rou
   Flattening flattening;
   flattening.points = Flattening2D(surface, shapes, points).run(rounds);
   measure_distortion(surface, shapes, flattening);
-  if (flattening.flipped > 0 && turn_back(surface, flattening.points)) measure_distortion(surface, shapes, flattening);
+  if (flattening.flipped > 0 && turn_back(surface, flattening.points, flattening.work))
+    measure_distortion(surface, shapes, flattening);
   return flattening;
 }
 

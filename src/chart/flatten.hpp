@@ -18,6 +18,7 @@ struct Flattening {
   /// The same of the larger factor by which lengths have grown or shrunk.
   double scaling = 1;
   std::size_t flipped = 0;  ///< triangles that are turned over, or have no area
+  std::size_t work = 0;     ///< that it took to turn triangles back, as kernel::Mesh::work() counts it
 };
 
 /// Rounds: until they gain nothing, or as many as do for a window that is thrown away soon.

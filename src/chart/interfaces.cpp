@@ -46,13 +46,13 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
 
 /// `waiting`: nodes of interfaces that have to be looked at.
 void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, const std::vector<Edge>& interface,
-                       std::vector<char> waiting, const Ground& ground) {
+                       std::vector<char> waiting, const Ground& ground, WindowBudget& budget) {
   const std::vector<Index> opposite = opposite_sides(mesh);
   const std::vector<bool> is_crease = sides_on(mesh, creases);
   std::vector<bool> is_cut = sides_on(mesh, interface);
   for (std::size_t side = 0; side < is_cut.size(); ++side) is_cut[side] = is_cut[side] || is_crease[side];
   while (is_any(waiting)) {
-    const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting);
+    const std::vector<Window> windows = take_windows(mesh, opposite, is_crease, kStraighteningWindow, waiting, budget);
     if (windows.empty()) return;
     for (const Window& window : windows) straighten_window(mesh, opposite, is_cut, interface, window, ground);
   }
@@ -88,15 +88,15 @@ std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edg
   return result;
 }
 
-void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
-                const Ground& ground) {
+void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface, const Ground& ground,
+                WindowBudget& budget) {
   if (interface.empty()) return;
   constexpr int kSteps = 4;  // along the interface from a node that another has become
   const std::vector<double> size = mean_edges(mesh, ground);
   std::vector<char> waiting(mesh.points.size(), 0);
   for (const auto& [a, b] : interface) waiting[a] = waiting[b] = 1;
-  straighten_around(mesh, creases, interface, waiting, ground);
-  const std::vector<Index> changed = thin_out(mesh, size, creases, interface, ground);
+  straighten_around(mesh, creases, interface, waiting, ground, budget);
+  const std::vector<Index> changed = thin_out(mesh, size, creases, interface, ground, budget);
   if (changed.empty()) return;
   waiting.assign(mesh.points.size(), 0);
   for (Index v : changed) waiting[v] = 1;
@@ -105,7 +105,7 @@ void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector
     for (const auto& [a, b] : interface)
       if (before[a] || before[b]) waiting[a] = waiting[b] = 1;
   }
-  straighten_around(mesh, creases, interface, std::move(waiting), ground);
+  straighten_around(mesh, creases, interface, std::move(waiting), ground, budget);
 }
 
 }  // namespace qmorph::chart

@@ -4,6 +4,7 @@
 
 #include "chart/divide.hpp"
 #include "chart/ground.hpp"
+#include "chart/windows.hpp"
 
 namespace qmorph::chart {
 
@@ -18,8 +19,8 @@ std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sid
 /// Moves nodes of interfaces, and those around, so that the interfaces are smooth. Where that has made their edges
 /// shorter than others, some of their nodes go. Creases stay; faces may get other numbers. Where triangles are
 /// stretched, all that is by their metric.
-void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface,
-                const Ground& ground);
+void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface, const Ground& ground,
+                WindowBudget& budget);
 
 /// Splits edges between parts in two so that one part at most has an odd number of sides, interfaces rather than
 /// creases. New edges are added to `interface` or `creases`, `division` and `opposite` are brought up to date. Marks

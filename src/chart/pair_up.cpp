@@ -84,6 +84,8 @@ void join_pairs(SurfaceMesh& mesh, const std::vector<bool>& is_wall, const space
   mesh.faces.resize(kept), mesh.near.resize(kept), mesh.open.resize(4 * std::size_t(kept));
 }
 
+constexpr std::size_t kWorkOfLook = 2;
+
 /// Finds chains of faces from triangle to triangle that have no face in common, and what they become.
 class Chains {
  public:
@@ -97,10 +99,11 @@ class Chains {
         is_taken_(mesh.faces.size(), 0),
         came_from_(mesh.faces.size(), kNone) {}
 
-  /// `longest`: faces that a search looks at. Ends when it has cost more than is `allowed`.
-  std::vector<Reworked> run(std::size_t longest, double allowed) {
+  /// `longest`: faces that a search looks at. `looks` are left for all.
+  std::vector<Reworked> run(std::size_t longest, std::size_t& looks) {
     std::vector<Reworked> results;
-    for (Index f = 0; f < mesh_.faces.size() && double(work_) <= allowed; ++f) {
+    looks_ = looks;
+    for (Index f = 0; f < mesh_.faces.size() && looks_ > 0; ++f) {
       if (!is_triangle(mesh_.faces[f]) || is_taken_[f]) continue;
       const std::vector<Index> chain = chain_from(f, longest);
       if (chain.empty()) continue;
@@ -108,10 +111,9 @@ class Chains {
       if (!done) done = join(chain);
       if (done) results.push_back(std::move(*done));
     }
+    looks = looks_;
     return results;
   }
-
-  std::size_t work() const { return work_; }
 
  private:
   template <class Visit>
@@ -136,8 +138,11 @@ class Chains {
       });
     }
     for (Index f : reached) came_from_[f] = kNone;
+    spend(reached.size());
     return chain;
   }
+
+  void spend(std::size_t looks) { looks_ -= std::min(looks_, looks); }
 
   /// Quads around the chain make room for it.
   std::vector<Index> with_ring(std::vector<Index> faces) const {
@@ -156,13 +161,15 @@ class Chains {
 
   std::optional<Reworked> join(const std::vector<Index>& faces) {
     constexpr double kMostDistortion = 1.5;
+    constexpr std::size_t kLooksToJoin = 300;  // of a face
+    spend(kLooksToJoin * faces.size());
     auto laid_out = std::make_unique<LaidOut>(mesh_, opposite_, is_wall_, faces);
     const auto& [piece, chart] = *laid_out;
     if (!is_planar_topology(piece) || chart.flattening().flipped > 0 || chart.flattening().distortion > kMostDistortion)
       return {};
     Reworked work{&piece, piece.mesh(chart.flat()), {}};
     const std::size_t left = elimination::eliminate_triangles(work.mesh, smoothing_);
-    work_ += work.mesh.work();
+    spend(work.mesh.work() / kWorkOfLook);
     if (left > 0) return {};
     for (Index f = 0; f < work.mesh.face_slots(); ++f)
       if (work.mesh.is_live_face(f) && !work.mesh.is_valid_face(f)) return {};
@@ -178,24 +185,27 @@ class Chains {
   const std::vector<bool>& is_wall_;
   const space::Background& background_;
   const SmoothingOptions& smoothing_;
+  std::size_t looks_ = 0;       ///< at faces that are left
   std::vector<char> is_taken_;  ///< by face
   std::vector<Index> came_from_;
-  std::size_t work_ = 0;
   std::vector<std::unique_ptr<LaidOut>> laid_out_;  ///< of the results
 };
 
 }  // namespace
 
 std::size_t pair_up(SurfaceMesh& mesh, const std::vector<Edge>& walls, const space::Background& background,
-                    const SmoothingOptions& smoothing, double allowed) {
+                    const SmoothingOptions& smoothing) {
   join_pairs(mesh, sides_on(mesh, walls), background);
   constexpr std::size_t kNear = 100, kFarther = 8;
-  std::size_t longest = kNear, work = 0;
-  while (double(work) <= allowed) {
+  // Each search is short as long as others find what they look for. Where nothing can be joined it is not.
+  constexpr std::size_t kLooksEach = 1000, kFewLooks = 100'000;
+  std::size_t longest = kNear, looks = kFewLooks + kLooksEach * mesh.faces.size();
+  const std::size_t all_looks = looks;
+  while (looks > 0) {
     const std::vector<bool> is_wall = sides_on(mesh, walls);
     Chains chains(mesh, is_wall, background, smoothing);
-    const std::vector<Reworked> results = chains.run(longest, allowed - double(work));
-    work += chains.work();
+    const std::vector<Reworked> results = chains.run(longest, looks);
+    looks -= std::min(looks, mesh.faces.size());
     if (!results.empty()) {
       mesh = replace(mesh, results);
       continue;
@@ -203,7 +213,7 @@ std::size_t pair_up(SurfaceMesh& mesh, const std::vector<Edge>& walls, const spa
     if (longest > mesh.faces.size()) break;
     longest *= kFarther;
   }
-  return work;
+  return kWorkOfLook * (all_looks - looks);
 }
 
 }  // namespace qmorph::chart

@@ -111,7 +111,7 @@ std::vector<double> mean_edges(const SurfaceMesh& mesh, const Ground& ground) {
 }
 
 std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-                            std::vector<Edge>& interface, const Ground& ground) {
+                            std::vector<Edge>& interface, const Ground& ground, WindowBudget& budget) {
   if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
   const std::vector<Merge> merges = choose(mesh, size, creases, interface, ground);
   if (merges.empty()) return {};
@@ -123,7 +123,7 @@ std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, 
   std::vector<Index> changed;
   while (is_any(waiting)) {
     const std::vector<Index> opposite = opposite_sides(mesh);
-    const std::vector<Window> windows = take_windows(mesh, opposite, sides_on(mesh, creases), kWindow, waiting);
+    const std::vector<Window> windows = take_windows(mesh, opposite, sides_on(mesh, creases), kWindow, waiting, budget);
     if (windows.empty()) break;
     std::vector<Reworked> results;
     for (const Window& window : windows) {

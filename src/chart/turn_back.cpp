@@ -48,6 +48,8 @@ class Turning {
     return true;
   }
 
+  std::size_t work() const { return looks_; }
+
  private:
   double sine(Index t) const {
     const auto& [a, b, c] = surface_.corners(t);
@@ -59,7 +61,9 @@ class Turning {
   double sine_around(Index corner, double enough = -1) const {
     double least = std::numeric_limits<double>::infinity();
     surface_.for_fan(corner, kNone, [&](Index around) {
-      if (least > enough) least = std::min(least, sine(around / 3));
+      if (!(least > enough)) return;
+      least = std::min(least, sine(around / 3));
+      ++looks_;
     });
     return least;
   }
@@ -93,10 +97,16 @@ class Turning {
   const space::Background& surface_;
   std::vector<Vec2>& points_;
   std::array<Vec2, kDirections> directions_;
+  mutable std::size_t looks_ = 0;  ///< at triangles
 };
 
 }  // namespace
 
-bool turn_back(const space::Background& surface, std::vector<Vec2>& points) { return Turning(surface, points).run(); }
+bool turn_back(const space::Background& surface, std::vector<Vec2>& points, std::size_t& work) {
+  Turning turning(surface, points);
+  const bool has_turned = turning.run();
+  work += turning.work();
+  return has_turned;
+}
 
 }  // namespace qmorph::chart

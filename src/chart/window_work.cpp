@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/window_work.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 
@@ -28,9 +29,12 @@ struct Shapes {
   }
 };
 
+/// Of a node of a window that is stretched.
+constexpr std::size_t kWorkToUnfold = 1000;
+
 class WindowWork {
  public:
-  WindowWork(const LaidOut& window, const Options& options, const Ground& ground)
+  WindowWork(const LaidOut& window, const Options& options, const Ground& ground, double allowed)
       : window_(window),
         background_(ground.background),
         options_(options),
@@ -38,7 +42,7 @@ class WindowWork {
         work_{&window.piece, stretched_ ? stretched_->mesh() : window.piece.mesh(window.chart.flat()), {}},
         before_(work_.mesh),
         nodes_(window.piece.points.size()),
-        allowed_(allowance(work_.mesh.face_slots())) {
+        allowed_(std::min(allowed, allowance(work_.mesh.face_slots()))) {
     std::iota(nodes_.begin(), nodes_.end(), 0);
     options_.observer = nullptr;
     options_.progress = {};
@@ -60,7 +64,7 @@ class WindowWork {
     return true;
   }
 
-  std::size_t work() const { return work_.mesh.work(); }
+  std::size_t work() const { return work_.mesh.work() + (stretched_ ? kWorkToUnfold * nodes_.size() : 0); }
 
   WindowResult result(double mean_loss) {
     const Shapes after(work_.mesh);
@@ -88,16 +92,16 @@ class WindowWork {
 
 }  // namespace
 
-WindowResult clean_window(const LaidOut& window, const Options& options, const Ground& ground) {
-  WindowWork work(window, options, ground);
+WindowResult clean_window(const LaidOut& window, const Options& options, const Ground& ground, double allowed) {
+  WindowWork work(window, options, ground, allowed);
   constexpr double kAny = 1;
   work.clean();
   return work.result(kAny);
 }
 
-WindowResult cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground) {
+WindowResult cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground, double allowed) {
   constexpr double kMeanLoss = 0.005;  // of the scaled Jacobian
-  WindowWork work(window, options, ground);
+  WindowWork work(window, options, ground, allowed);
   if (!work.cancel()) return {{}, work.work()};
   return work.result(kMeanLoss);
 }

@@ -16,10 +16,11 @@ struct WindowResult {
   std::size_t work = 0;            ///< as kernel::Mesh::work() counts it, in either case
 };
 
-/// Irregular nodes cancel, and the rest is smoothed.
-WindowResult clean_window(const LaidOut& window, const Options& options, const Ground& ground);
+/// Irregular nodes cancel, and the rest is smoothed; for about as much work as is allowed.
+WindowResult clean_window(const LaidOut& window, const Options& options, const Ground& ground, double allowed);
 
-/// Cancels irregular nodes that lie so far apart that looking for them everywhere would cost too much.
-WindowResult cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground);
+/// Cancels irregular nodes that lie so far apart that looking for them everywhere would cost too much;
+/// for about as much work as is allowed.
+WindowResult cancel_in_window(const LaidOut& window, const Options& options, const Ground& ground, double allowed);
 
 }  // namespace qmorph::chart

@@ -17,13 +17,15 @@ constexpr double kMostDistortion = 1.5;
 class Taking {
  public:
   Taking(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_wall,
-         const WindowSize& size, std::vector<char>& waiting)
-      : mesh_(mesh), opposite_(opposite), is_wall_(is_wall), size_(size), waiting_(waiting) {}
+         const WindowSize& size, std::vector<char>& waiting, WindowBudget& budget)
+      : mesh_(mesh), opposite_(opposite), is_wall_(is_wall), size_(size), waiting_(waiting), budget_(budget) {}
 
   std::vector<Window> run() {
-    find_strip();
     std::vector<Window> windows;
-    for (Index f = 0; f < mesh_.faces.size(); ++f) {
+    if (budget_.is_spent()) return windows;
+    budget_.spend(kWorkToLook * mesh_.faces.size());
+    find_strip();
+    for (Index f = 0; f < mesh_.faces.size() && !budget_.is_spent(); ++f) {
       if (!in_strip_[f] || !has_waiting(f)) continue;
       if (std::unique_ptr<Window> window = window_around(f)) windows.push_back(std::move(*window));
     }
@@ -85,11 +87,13 @@ class Taking {
     faces.resize(keep);
   }
 
-  std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) const {
+  std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) {
+    budget_.spend(kWorkToLayOut * faces.size());
     Piece piece(mesh_, opposite_, is_wall_, faces);
     if (loops_of(piece).size() != 1 || euler_characteristic(piece) != 1) return nullptr;
     auto laid_out = std::make_unique<LaidOut>(std::move(piece), kFewRounds);
     const Flattening& flattening = laid_out->chart.flattening();
+    budget_.spend(flattening.work);
     if (flattening.flipped > 0 || flattening.distortion > kMostDistortion) return nullptr;
     return laid_out;
   }
@@ -124,14 +128,16 @@ class Taking {
   const std::vector<bool>& is_wall_;
   const WindowSize& size_;
   std::vector<char>& waiting_;
+  WindowBudget& budget_;
   std::vector<char> in_strip_, in_window_;
 };
 
 }  // namespace
 
 std::vector<Window> take_windows(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
-                                 const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting) {
-  return Taking(mesh, opposite, is_wall, size, waiting).run();
+                                 const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting,
+                                 WindowBudget& budget) {
+  return Taking(mesh, opposite, is_wall, size, waiting, budget).run();
 }
 
 }  // namespace qmorph::chart

@@ -19,6 +19,22 @@ struct WindowSize {
   bool apart = false;  ///< a window waits until no other one is nearer to its middle than the margin
 };
 
+/// Work (`kernel::Mesh::work()`) that windows may cost, all together.
+class WindowBudget {
+ public:
+  explicit WindowBudget(double allowed) : allowed_(allowed) {}
+  void spend(std::size_t work) { spent_ += work; }
+  std::size_t spent() const { return spent_; }
+  double left() const { return allowed_ - double(spent_); }
+  bool is_spent() const { return left() <= 0; }
+
+ private:
+  double allowed_;
+  std::size_t spent_ = 0;
+};
+/// Of a face that is laid flat, or looked at for a round of windows.
+inline constexpr std::size_t kWorkToLayOut = 300, kWorkToLook = 20;
+
 /// Whether a node waits for its window.
 inline bool is_any(const std::vector<char>& waiting) {
   return std::any_of(waiting.begin(), waiting.end(), [](char waits) { return waits != 0; });
@@ -26,9 +42,10 @@ inline bool is_any(const std::vector<char>& waiting) {
 
 /// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window
 /// has them well inside, or no window can be laid flat around them. Called until it returns nothing, every node has had
-/// its window.
+/// its window, or the budget is spent: where nothing lies flat, each node costs many tries.
 /// \param is_wall sides that no window crosses
 std::vector<Window> take_windows(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
-                                 const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting);
+                                 const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting,
+                                 WindowBudget& budget);
 
 }  // namespace qmorph::chart

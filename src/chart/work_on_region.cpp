@@ -30,7 +30,7 @@ constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
-using Work = WindowResult (*)(const LaidOut& window, const Options& options, const Ground& ground);
+using Work = WindowResult (*)(const LaidOut& window, const Options& options, const Ground& ground, double allowed);
 
 /// Where a try has failed, by triangle of the region.
 struct Distrust {
@@ -65,8 +65,14 @@ class Worker {
     clean_interfaces();
     const SurfaceMesh before = mesh_;
     if (task_ == Task::convert && cancel_irregular_nodes()) {
-      if (improve() && doubtful() == 0) return true;
-      mesh_ = before;  // what is valid in a window may have no valid place in space
+      const bool is_valid = improve();
+      if (is_valid && doubtful() == 0) return true;
+      // What is valid in a window may have no valid place in space.
+      SurfaceMesh cancelled = std::exchange(mesh_, before);
+      space::Faults faults = faults_;
+      if (improve() && (!is_valid || doubtful() < faults.doubtful.size())) return true;
+      if (is_valid) mesh_ = std::move(cancelled), faults_ = std::move(faults);
+      return is_valid;
     }
     return improve();
   }
@@ -113,6 +119,13 @@ class Worker {
 
  private:
   const space::Background& background() const { return *region_.background; }
+
+  /// Work for each use of windows. Ordinary surfaces take up to nine tenths of it, small ones half.
+  double window_allowance() const {
+    constexpr double kEach = 1800;
+    const std::size_t size = region_.region.triangles.size();
+    return 0.5 * (allowance(size) + kEach * double(size));
+  }
 
   /// What is refined here is as long as there were too few nodes.
   bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
@@ -165,7 +178,9 @@ class Worker {
   }
 
   void straighten_interfaces() {
-    straighten(mesh_, creases_, interface_, ground_);
+    WindowBudget budget(window_allowance());
+    straighten(mesh_, creases_, interface_, ground_, budget);
+    effort_.spent += budget.spent();
     opposite_ = opposite_sides(mesh_);
     division_.is_cut = sides_on(mesh_, interface_);
     const std::vector<bool> is_crease = sides_on(mesh_, creases_);
@@ -237,7 +252,7 @@ class Worker {
     for (Index p = 0; p < has_no_chart_.size(); ++p)
       if (has_no_chart_[p])
         for (Index v : division_.laid_out[p]->piece.vertex) needs_cleaning_[v] = 1;
-    effort_.spent += pair_up(mesh_, creases_, background(), options_.smoothing, effort_.allowed);
+    effort_.spent += pair_up(mesh_, creases_, background(), options_.smoothing);
     needs_cleaning_.resize(mesh_.points.size(), 1);
   }
 
@@ -282,23 +297,32 @@ class Worker {
   /// True if a window has changed.
   bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
     const Ground ground{background(), stretched_.empty() ? nullptr : ground_.field};
+    constexpr double kShares = 3;  // most windows need less than their share, some more
     bool changed = false;
+    WindowBudget budget(window_allowance());
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
-      const std::vector<Window> windows = take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting);
-      if (windows.empty()) return changed;
+      const std::vector<Window> windows =
+          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting, budget);
+      if (windows.empty()) break;
+      std::size_t faces = 0;
+      for (const Window& window : windows) faces += window.faces.size();
+      const double allowed = std::max(0.0, budget.left());
       std::vector<WindowResult> reworked(windows.size());
-      parallel::for_each_index(windows.size(),
-                               [&](std::size_t w) { reworked[w] = work(*windows[w].laid_out, options_, ground); });
+      parallel::for_each_index(windows.size(), [&](std::size_t w) {
+        const double share = kShares * part_of(allowed, windows[w].faces.size(), faces, windows.size());
+        reworked[w] = work(*windows[w].laid_out, options_, ground, share);
+      });
       std::vector<Reworked> results;
       for (WindowResult& window : reworked) {
-        effort_.spent += window.work;
+        budget.spend(window.work);
         if (window.better) results.push_back(std::move(*window.better));
       }
       changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
     }
+    effort_.spent += budget.spent();
     return changed;
   }
 
@@ -335,8 +359,9 @@ struct Best {
 }  // namespace
 
 bool Effort::has_more_for(std::size_t triangles) const {
-  constexpr double kTries = 8;
-  return double(spent) < kTries * allowance(triangles);
+  constexpr double kTries = 4, kTriesOfSmall = 8;  // in allowances; the first try takes two or three
+  constexpr std::size_t kSmall = 2000;
+  return double(spent) < (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
 }
 
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
@@ -381,9 +406,10 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads
   // then.
   constexpr std::size_t kNotMany = 2000;
-  const int refinings = size <= kFew ? 3 : size <= kNotMany && !best.work ? 1 : 0;
+  const int refinings = size <= kFew ? (is_hopeful ? 3 : 0) : size <= kNotMany && !best.work ? 1 : 0;
   Distrust nodes;
-  while (is_hopeful && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) && effort.has_more_for(size))
+  while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
+         effort.has_more_for(size))
     if (Worker worker(region, options, effort, task, nodes); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
   throw *first;

@@ -27,6 +27,9 @@ constexpr double kStrained = 135 * std::numbers::pi / 180;
 constexpr int kUntanglingSweeps = 12;
 /// Of a bad face: all changes and layers around it.
 constexpr std::size_t kUsualWork = 20'000;
+/// Elements that are tried after the budget is spent because they are invalid: some, and a share of all.
+constexpr std::size_t kFewOverdrafts = 50;
+constexpr double kMostOverdrafts = 0.05;
 
 /// A repair has to pay: a slightly better corner is not worth irregular nodes.
 bool is_clearly_better(const Worth& before, const Worth& after) {
@@ -38,7 +41,11 @@ bool is_clearly_better(const Worth& before, const Worth& after) {
 class Repair {
  public:
   Repair(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
-      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
+      : mesh_(mesh),
+        score_(mesh),
+        relaxing_(smoothing),
+        budget_(budget),
+        most_overdrafts_(kFewOverdrafts + std::size_t(kMostOverdrafts * double(mesh.face_slots()))) {
     relaxing_.iterations = std::max(relaxing_.iterations, 12);
     relaxing_.untangling_sweeps = kUntanglingSweeps;
   }
@@ -96,8 +103,11 @@ class Repair {
     return found;
   }
 
-  /// An invalid element is mended at any cost.
-  bool may_try(Index f) const { return !budget_.is_spent() || (mesh_.is_live_face(f) && !mesh_.is_valid_face(f)); }
+  /// An invalid element is worth a try though the budget is spent, as long as such elements are not the rule.
+  bool may_try(Index f) {
+    if (!budget_.is_spent()) return true;
+    return overdrafts_ < most_overdrafts_ && mesh_.is_live_face(f) && !mesh_.is_valid_face(f);
+  }
 
   bool has_failed(Index f) const { return f < failed_.size() && failed_[f]; }
 
@@ -114,6 +124,7 @@ class Repair {
 
   void try_face(Index f) {
     if (!may_try(f) || !is_bad(f) || has_failed(f)) return;
+    overdrafts_ += budget_.is_spent();
     if (improve(f)) {
       ++changes_;
       for (Index v : nodes_) forgive_around(v);
@@ -209,6 +220,8 @@ class Repair {
   std::vector<Index> nodes_;
   std::vector<bool> failed_;  ///< faces around which nothing has changed since nothing was found for them
   std::size_t changes_ = 0;
+  const std::size_t most_overdrafts_;
+  std::size_t overdrafts_ = 0;  ///< invalid elements that were tried after the budget was spent
 };
 
 }  // namespace

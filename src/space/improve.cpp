@@ -40,7 +40,7 @@ class Folds {
 };
 
 std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
-  constexpr double kLeastRise = 0.1;
+  constexpr double kLeastRise = 0.2;  // with less, normals of triangles beside those at a corner may say otherwise
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.faces(); ++f)
     if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !folds.are_under(f)) faces.push_back(f);
@@ -53,9 +53,10 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
                const std::vector<char>& stretched, const SmoothingOptions& options) {
   constexpr std::size_t kWorkOfLook = 150;
   std::size_t looks = 0;
+  const WholeSurface whole = region.whole();
   const Background surface(region.points, region.region.triangles, barriers(region));
   {
-    MeshOnSurface view(mesh, creases, surface, *region.background, stretched);
+    MeshOnSurface view(mesh, creases, surface, whole, stretched);
     smooth(view, options);
     settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
@@ -63,15 +64,15 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
     looks += view.exact_looks();
     if (Folds folds(view, surface); is_valid) return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
   }
-  mesh = mend_in_charts(std::move(mesh), creases, region, surface, options);
-  MeshOnSurface view(mesh, creases, surface, *region.background, stretched);
+  Faults faults;
+  mesh = mend_in_charts(std::move(mesh), creases, region, surface, options, faults.work);
+  MeshOnSurface view(mesh, creases, surface, whole, stretched);
   smooth_near(view, options, raise_poor(view, options));
   Folds folds(view, surface);
-  Faults faults;
   for (const PoorFace& poor : find_poor(view, 0))
     if (!folds.are_under(poor.face)) faults.turned.push_back(poor.face);
   if (faults.turned.empty()) faults.doubtful = doubtful_faces(view, folds);
-  faults.work = kWorkOfLook * (looks + view.exact_looks());
+  faults.work += kWorkOfLook * (looks + view.exact_looks());
   return faults;
 }
 

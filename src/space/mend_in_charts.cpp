@@ -150,7 +150,7 @@ class Mender {
         creases_(creases),
         triangles_(region.start()),
         surface_(surface),
-        whole_(*region.background),
+        whole_(region.whole()),
         options_(options) {
     opposite_.assign(4 * triangles_.faces.size(), kNone);
     for (Index side = 0; side < 3 * surface.triangles(); ++side)
@@ -158,14 +158,22 @@ class Mender {
         opposite_[4 * (side / 3) + side % 3] = 4 * (other / 3) + other % 3;
   }
 
-  SurfaceMesh run() {
+  /// Adds what it has cost to `work`.
+  SurfaceMesh run(std::size_t& work) {
     constexpr int kFewestRings = 2, kMostRings = 4;
-    for (int rings = kFewestRings; rings <= kMostRings; rings += 2)
+    for (int rings = kFewestRings; rings <= kMostRings && has_work(); rings += 2)
       if (!mend(rings)) break;
+    work += spent_;
     return std::move(mesh_);
   }
 
  private:
+  /// Where everything is turned over, the fault is not one that is mended here.
+  bool has_work() const {
+    constexpr std::size_t kEach = 500, kFew = 1'000'000;  // of a face, and for few
+    return spent_ < kFew + kEach * mesh_.faces.size();
+  }
+
   /// False if nothing is left to do.
   bool mend(int rings) {
     MeshOnSurface view(mesh_, creases_, surface_, whole_);
@@ -176,6 +184,7 @@ class Mender {
     std::vector<chart::Reworked> done;
     for (const std::vector<Index>& faces : components(view, grow(view, bad, rings))) {
       if (faces.size() > kMostFaces) continue;
+      if (!has_work()) break;
       pieces.push_back(std::make_unique<Piece>(mesh_, opposites(view), std::vector<bool>{}, faces));
       if (auto work = rework(view, *pieces.back(), faces)) done.push_back(std::move(*work));
     }
@@ -191,8 +200,11 @@ class Mender {
 
   std::optional<chart::Reworked> rework(const MeshOnSurface& view, const Piece& piece,
                                         const std::vector<Index>& faces) {
+    constexpr std::size_t kWorkToLayOut = 1500;  // of a face: the triangles under it, and some around
     if (piece.boundary_sides == 0) return {};
+    spent_ += kWorkToLayOut * faces.size();
     const Ground ground(triangles_, opposite_, view, faces);
+    spent_ += ground.chart().flattening().work;
     if (!ground.is_good()) return {};
     std::vector<Vec2> flat;
     for (Index v = 0; v < piece.points.size(); ++v) {
@@ -201,7 +213,9 @@ class Mender {
       flat.push_back(*p);
     }
     chart::Reworked work{&piece, piece.mesh(flat), {}};
-    if (!untangle(work.mesh, options_)) return {};
+    const bool is_good = untangle(work.mesh, options_);
+    spent_ += work.mesh.work();
+    if (!is_good) return {};
     work.lifted = lift(work.mesh, piece, flat, ground);
     if (count_bad(work) >= count_bad(view, faces)) return {};
     return work;
@@ -249,15 +263,17 @@ class Mender {
   const std::vector<chart::Edge>& creases_;
   const SurfaceMesh triangles_;  ///< the surface itself
   std::vector<Index> opposite_;  ///< of their sides
-  const Background &surface_, &whole_;
+  const Background& surface_;
+  const WholeSurface whole_;
   const SmoothingOptions& options_;
+  std::size_t spent_ = 0;
 };
 
 }  // namespace
 
 SurfaceMesh mend_in_charts(SurfaceMesh mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
-                           const Background& surface, const SmoothingOptions& options) {
-  return Mender(std::move(mesh), creases, region, surface, options).run();
+                           const Background& surface, const SmoothingOptions& options, std::size_t& work) {
+  return Mender(std::move(mesh), creases, region, surface, options).run(work);
 }
 
 }  // namespace qmorph::space

@@ -60,11 +60,10 @@ CornerNormals<N> MeshOnSurface::normals(Index f) const {
 }
 
 MeshOnSurface::MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
-                             const Background& whole, std::span<const char> stretched)
+                             WholeSurface whole, std::span<const char> stretched)
     : mesh_(mesh),
       surface_(surface),
-      whole_(whole),
-      whole_normals_(whole),
+      whole_(std::move(whole)),
       stretched_(stretched),
       opposite_(chart::opposite_sides(mesh)),
       first_side_(mesh.points.size(), kNone),
@@ -181,13 +180,15 @@ double MeshOnSurface::sure_sine(Index f) const {
 double MeshOnSurface::exact_sine(Index f) const {
   ++exact_looks_;
   const Face& face = mesh_.faces[f];
-  const auto sine = [&](const auto& p) { return scaled_jacobian(p, whole_normals_.of(p, mesh_.near[f])); };
+  const auto sine = [&](const auto& p) {
+    return scaled_jacobian(p, whole_.normals().of(p, whole_.row(mesh_.near[f])));
+  };
   return chart::degree(face) == 4 ? sine(corners<4>(face)) : sine(corners<3>(face));
 }
 
 double MeshOnSurface::exact_rise(Index f) const {
   const Face& face = mesh_.faces[f];
-  const auto rise = [&](const auto& p) { return smallest_rise(p, whole_normals_.of(p, mesh_.near[f])); };
+  const auto rise = [&](const auto& p) { return smallest_rise(p, whole_.normals().of(p, whole_.row(mesh_.near[f]))); };
   return chart::degree(face) == 4 ? rise(corners<4>(face)) : rise(corners<3>(face));
 }
 

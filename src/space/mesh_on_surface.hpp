@@ -11,7 +11,7 @@
 #include "smoothing/node_energy.hpp"
 #include "space/background.hpp"
 #include "space/corners.hpp"
-#include "space/surface_normals.hpp"
+#include "space/whole_surface.hpp"
 
 namespace qmorph::space {
 
@@ -31,16 +31,13 @@ class MeshOnSurface {
   using Face = chart::Face;
 
   /// `creases` are edges of the mesh, lower node first, sorted: the mesh parts there, as the surface does, and their
-  /// nodes stay. Mesh::near is brought to the right side of them. `whole` is the surface as if there were no creases,
-  /// since those who judge a result later do not know of them. `stretched`, by triangle, is where shapes are not to be
-  /// squares; it may be empty.
+  /// nodes stay. Mesh::near is brought to the right side of them. `whole` has no creases, since those who judge a
+  /// result later do not know of them. `stretched`, by triangle, is where shapes are not to be squares; may be empty.
   MeshOnSurface(Mesh& mesh, const std::vector<std::pair<Index, Index>>& creases, const Background& surface,
-                const Background& whole, std::span<const char> stretched = {});
+                WholeSurface whole, std::span<const char> stretched = {});
 
   const Mesh& mesh() const { return mesh_; }
   const Background& surface() const { return surface_; }
-  const SurfaceNormals& whole_normals() const { return whole_normals_; }
-  const Background& whole() const { return whole_; }
   Index nodes() const { return Index(mesh_.points.size()); }
   Index faces() const { return Index(mesh_.faces.size()); }
   /// May move: not fixed, and inside.
@@ -112,8 +109,8 @@ class MeshOnSurface {
   CornerNormals<N> normals(Index face) const;
 
   Mesh& mesh_;
-  const Background &surface_, &whole_;
-  const SurfaceNormals whole_normals_;
+  const Background& surface_;
+  const WholeSurface whole_;
   const std::span<const char> stretched_;
   std::vector<Index> opposite_;    ///< by side
   std::vector<Index> first_side_;  ///< by node: the one that has nothing before it, if there is a gap

@@ -28,9 +28,10 @@ std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& optio
 
 /// Faces that are not valid are taken out with a few rings around, laid flat with the surface under them, and untangled
 /// there, by moving nodes first, then by changing what is joined to what. What becomes no better stays as it is.
-/// `creases` as MeshOnSurface has them; `surface` is the region's, parted along them.
+/// `creases` as MeshOnSurface has them; `surface` is the region's, parted along them. Adds to `work` what it has cost,
+/// as kernel::Mesh::work() counts it: no more than in proportion to the mesh, and what is left then is not mended.
 chart::SurfaceMesh mend_in_charts(chart::SurfaceMesh mesh, const std::vector<chart::Edge>& creases,
                                   const chart::CurvedRegion& region, const Background& surface,
-                                  const SmoothingOptions& options);
+                                  const SmoothingOptions& options, std::size_t& work);
 
 }  // namespace qmorph::space

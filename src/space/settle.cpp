@@ -10,8 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Centres nearer to the surface than this are there (edges); up to the second one the pull on them fades.
-constexpr double kThere = 0.01, kNear = 0.03;
+/// Up to this distance of a centre the pull on it fades (edges).
+constexpr double kNear = 0.01;
+/// Distances of the centres around a node that are less in all (edges): the surface is flat there.
+constexpr double kFlat = 1e-3;
 /// Sines of corners that one edge's distance of a centre is worth.
 constexpr double kShapeCost = 0.2;
 constexpr double kRounding = 1e-9;  ///< of such sums
@@ -25,10 +27,14 @@ class Settling {
   }
 
   void run() {
-    constexpr int kPasses = 5;
+    constexpr int kPasses = 10, kFinePasses = 3;
     for (int pass = 0; pass < kPasses; ++pass)
       for (Index v = 0; v < mesh_.nodes(); ++v)
         if (is_active_[v] && mesh_.is_to_be_smoothed(v)) settle(v);
+    double step = 0.1;  // edges
+    for (int pass = 0; pass < kFinePasses; ++pass, step /= 2)
+      for (Index v = 0; v < mesh_.nodes(); ++v)
+        if (mesh_.is_to_be_smoothed(v)) look_around(v, step);
   }
 
  private:
@@ -52,38 +58,80 @@ class Settling {
     seat.under = foot.triangle;
     const double diagonal2 = (mesh_.point(mesh_.node(4 * f)) - mesh_.point(mesh_.node(4 * f + 2))).squaredNorm();
     const double edge = std::sqrt(0.5 * diagonal2), distance = std::sqrt(foot.distance2);
-    if (!(distance > kThere * edge)) return seat;
+    if (!(edge > 0)) return seat;
     seat.distance = distance / edge;
     seat.slope = (centre - foot.point) / std::max(distance, kNear * edge);
     return seat;
+  }
+
+  /// What the faces around a node say.
+  struct Around {
+    Vector3d slope = Vector3d::Zero();
+    Vector3d ways = Vector3d::Zero();  ///< mean of those of the neighbours
+    double cost = 0, distance = 0;
+    double least;     ///< sine of the worst face, or what is good enough
+    double edge = 0;  ///< mean length
+    Index side = kNone;
+
+    bool is_left_alone() const {
+      constexpr double kPoor = 0.3;  // left to those who look closer
+      return side == kNone || least < kPoor;
+    }
+  };
+
+  Around around(Index v) const {
+    Around sum;
+    sum.least = options_.good_quality;
+    double count = 0;
+    mesh_.for_sides_around(v, [&](Index side) {
+      const Index other = mesh_.node(mesh_.next(side));
+      const Seat& seat = seats_[side / 4];
+      sum.slope += seat.slope;
+      sum.cost += seat.cost();
+      sum.distance += seat.distance;
+      sum.least = std::min(sum.least, seat.sine);
+      sum.ways += way_[other];
+      sum.edge += (mesh_.point(other) - mesh_.point(v)).norm();
+      sum.side = side;
+      ++count;
+    });
+    if (count > 0) sum.edge /= count, sum.ways /= count;
+    return sum;
   }
 
   /// Sends a node downhill, half as far as its neighbours have come besides: where all go the same way no shape
   /// suffers.
   void settle(Index v) {
     constexpr double kGain = 0.5, kMost = 0.5, kLeastWay = 0.02;  // edges
-    constexpr double kPoor = 0.3;                                 // left to those who look closer
     is_active_[v] = 0;
-    Vector3d slope = Vector3d::Zero(), others = Vector3d::Zero();
-    double edge = 0, count = 0, cost = 0, least = options_.good_quality;
-    mesh_.for_sides_around(v, [&](Index side) {
-      const Index other = mesh_.node(mesh_.next(side));
-      const Seat& seat = seats_[side / 4];
-      slope += seat.slope;
-      cost += seat.cost();
-      least = std::min(least, seat.sine);
-      others += way_[other];
-      edge += (mesh_.point(other) - mesh_.point(v)).norm();
-      ++count;
-    });
-    if (count == 0 || least < kPoor || slope.isZero()) return;
-    edge /= count;
-    Vector3d way = 0.5 * (way_[v] + others / count) - kGain * edge * slope;
+    const Around here = around(v);
+    if (here.is_left_alone() || !(here.distance > kFlat)) return;
+    Vector3d way = 0.5 * (way_[v] + here.ways) - kGain * here.edge * here.slope;
     const Vector3d& up = mesh_.surface().normal(mesh_.mesh().on[v]);
     way -= way.dot(up) * up;
-    const double length = way.norm(), most = kMost * edge;
+    const double length = way.norm(), most = kMost * here.edge;
     if (length > most) way *= most / length;
-    try_ways(v, way, kLeastWay * edge, cost, least);
+    try_ways(v, way, kLeastWay * here.edge, here.cost, here.least);
+  }
+
+  /// Takes the first of four steps, along an edge and across, that is for the better: which way distances and shapes
+  /// together get better no slope says.
+  void look_around(Index v, double step) {
+    const Around here = around(v);
+    if (here.is_left_alone() || !(here.distance > kFlat)) return;
+    const MeshOnSurface::Place before = mesh_.place(v);
+    const Vector3d& up = mesh_.surface().normal(before.triangle);
+    const Vector3d edge = mesh_.point(mesh_.node(mesh_.next(here.side))) - before.point;
+    const Vector3d along = (edge - edge.dot(up) * up).normalized(), across = up.cross(along);
+    for (const Vector3d& way : {along, across, Vector3d(-along), Vector3d(-across)}) {
+      mesh_.move(v, before);
+      mesh_.move(v, mesh_.foot(v, before.point + step * here.edge * way));
+      if (!is_better(v, here.cost, here.least)) continue;
+      auto seat = tried_.begin();
+      mesh_.for_sides_around(v, [&](Index side) { seats_[side / 4] = *seat++; });
+      return;
+    }
+    mesh_.move(v, before);
   }
 
   /// All of the way, or less of it. Steps that are shorter than `least_way` wake nobody.

@@ -144,7 +144,11 @@ SurfaceNormals::SurfaceNormals(const Background& surface) : surface_(surface) {
 Foot SurfaceNormals::closest(const Vector3d& p, Index hint) const {
   const Foot walked = surface_.walk(p, hint);
   if (!tree_ || (surface_.is_smooth(walked.triangle) && is_on(surface_, walked))) return walked;
-  const Foot found = tree_->closest(p, std::sqrt(walked.distance2), part_, part_[hint]);
+  // Triangles that share the closest point are equally near: which of them it is must not depend on the hint.
+  constexpr double kAsNear = 1e-9;
+  const double side = (surface_.corner(walked.triangle, 1) - surface_.corner(walked.triangle, 0)).norm();
+  const double within = (1 + kAsNear) * std::sqrt(walked.distance2) + kAsNear * side;
+  const Foot found = tree_->closest(p, within, part_, part_[hint]);
   return found.triangle == kNone ? walked : found;
 }
 

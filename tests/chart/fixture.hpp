@@ -10,6 +10,8 @@
 
 namespace qmorph::test {
 
+constexpr double kPlenty = 1e12;  ///< of work
+
 /// A region of a patch, and its mesh before anything is done to it.
 struct Start {
   chart::CurvedRegion region;

@@ -6,7 +6,6 @@
 #include "chart/flatten.hpp"
 #include "chart/pair_up.hpp"
 #include "chart/refine.hpp"
-#include "engine/allowance.hpp"
 #include "space/creases.hpp"
 #include "support/on_surface.hpp"
 
@@ -42,28 +41,13 @@ std::size_t cracks(const SurfaceMesh& mesh) {
   return result;
 }
 
-double allowed(const Start& start) { return allowance(start.mesh.faces.size()); }
-
 }  // namespace
-
-TEST_CASE("pair up: ends when it has cost what is allowed, wherever that is") {
-  Rng rng(34);
-  const Patch patch = sphere(0.15, rng);
-  Start whole(patch);
-  const auto work = double(chart::pair_up(whole.mesh, {}, *whole.region.background, {}, allowed(whole)));
-  CHECK(count(whole.mesh, 3) == 0);
-  REQUIRE(work > 0);
-  Start half(patch);
-  CHECK(double(chart::pair_up(half.mesh, {}, *half.region.background, {}, work / 2)) < work);
-  CHECK(count(half.mesh, 3) > 0);
-  CHECK(cracks(half.mesh) == 0);
-}
 
 TEST_CASE("pair up: closed surfaces become quads without a chart of the whole") {
   Rng rng(31);
   for (const Patch& patch : {sphere(0.15, rng), torus(1, 0.35, 0.15, rng), double_torus(0.15, rng)}) {
     Start start(patch);
-    chart::pair_up(start.mesh, {}, *start.region.background, {}, allowed(start));
+    chart::pair_up(start.mesh, {}, *start.region.background, {});
     CHECK(count(start.mesh, 3) == 0);
     CHECK(cracks(start.mesh) == 0);
     CHECK(euler(start.mesh) == euler_characteristic(patch.triangles, {}));
@@ -76,13 +60,13 @@ TEST_CASE("pair up: of an odd number one triangle is left, and no pair crosses a
     const Patch patch = pierced(sphere(0.2, rng), {0, 0, 1}, 0.3 + 0.1 * k);
     Start start(patch);
     const std::size_t sides = start.region.region.boundary_sides;
-    chart::pair_up(start.mesh, {}, *start.region.background, {}, allowed(start));
+    chart::pair_up(start.mesh, {}, *start.region.background, {});
     CHECK(count(start.mesh, 3) == sides % 2);
     CHECK(cracks(start.mesh) == 0);
   }
   Start start(box({1, 1, 1}, 0.25, rng), 0.7);
   REQUIRE_FALSE(start.region.creases.empty());
-  chart::pair_up(start.mesh, start.region.creases, *start.region.background, {}, allowed(start));
+  chart::pair_up(start.mesh, start.region.creases, *start.region.background, {});
   const std::vector<bool> on_wall = chart::sides_on(start.mesh, start.region.creases);
   CHECK(std::size_t(std::count(on_wall.begin(), on_wall.end(), true)) == 2 * start.region.creases.size());
 }

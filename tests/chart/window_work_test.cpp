@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "chart/curved_region.hpp"
+#include "chart/fixture.hpp"
 #include "chart/irregular_nodes.hpp"
 #include "chart/windows.hpp"
 #include "space/reference.hpp"
@@ -59,13 +60,14 @@ TEST_CASE("windows: irregular nodes cancel, quads stay valid, and the rim of a w
     SurfaceMesh mesh = region.start();
     const std::vector<Index> opposite = opposite_sides(mesh);
     std::vector<char> waiting = irregular_nodes(mesh, {});
-    const std::vector<Window> windows =
-        take_windows(mesh, opposite, std::vector<bool>(4 * mesh.faces.size(), false), {14, 9, 1500, true}, waiting);
+    WindowBudget budget(kPlenty);
+    const std::vector<bool> no_walls(4 * mesh.faces.size(), false);
+    const std::vector<Window> windows = take_windows(mesh, opposite, no_walls, {14, 9, 1500, true}, waiting, budget);
     REQUIRE_FALSE(windows.empty());
     std::vector<Reworked> done;
     for (const Window& window : windows) {
       const Piece& piece = window.laid_out->piece;
-      auto work = cancel_in_window(*window.laid_out, Options(), {*region.background}).better;
+      auto work = cancel_in_window(*window.laid_out, Options(), {*region.background}, budget.left()).better;
       if (!work) continue;
       for (Index f = 0; f < work->mesh.face_slots(); ++f)
         if (work->mesh.is_live_face(f)) CHECK(work->mesh.is_valid_face(f));

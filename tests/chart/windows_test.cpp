@@ -22,9 +22,10 @@ TEST_CASE("windows: discs with no face in common, until each node has had one") 
     std::vector<char> waiting(start.mesh.points.size(), 0);
     for (std::size_t v = 0; v < waiting.size(); v += 3) waiting[v] = 1;
     int rounds = 0;
+    WindowBudget budget(kPlenty);
     while (true) {
       const auto left = std::count(waiting.begin(), waiting.end(), 1);
-      const auto windows = take_windows(start.mesh, start.opposite, walls, {6, 3, 200}, waiting);
+      const auto windows = take_windows(start.mesh, start.opposite, walls, {6, 3, 200}, waiting, budget);
       std::set<Index> taken;
       for (const Window& window : windows) {
         CHECK(window.faces.size() <= 200);
@@ -49,7 +50,8 @@ TEST_CASE("windows: none goes across a wall") {
     walls[side] = on_middle(face[side % 4]) && on_middle(face[next_corner(face, side % 4)]);
   }
   std::vector<char> waiting(start.mesh.points.size(), 1);
-  for (const Window& window : take_windows(start.mesh, start.opposite, walls, {6, 3, 500}, waiting)) {
+  WindowBudget budget(kPlenty);
+  for (const Window& window : take_windows(start.mesh, start.opposite, walls, {6, 3, 500}, waiting, budget)) {
     std::set<bool> halves;
     for (Index f : window.faces) {
       double x = 0;
@@ -58,4 +60,19 @@ TEST_CASE("windows: none goes across a wall") {
     }
     CHECK(halves.size() == 1);
   }
+}
+
+TEST_CASE("windows: where nothing lies flat, the search ends when its budget is spent") {
+  Rng rng(12);
+  Start start(sphere(0.06, rng));
+  for (Index v = 0; v < start.mesh.points.size(); v += 2) start.mesh.points[v] *= 1.3;  // pleats
+  const std::vector<bool> walls(4 * start.mesh.faces.size(), false);
+  std::vector<char> waiting(start.mesh.points.size(), 1);
+  constexpr std::size_t kEach = 1000, kLastWindow = 800 * 2 * kWorkToLayOut;
+  const std::size_t allowed = kEach * start.mesh.faces.size();
+  WindowBudget budget{double(allowed)};
+  while (!take_windows(start.mesh, start.opposite, walls, {8, 5, 800}, waiting, budget).empty()) {
+  }
+  CHECK(budget.is_spent());
+  CHECK(budget.spent() < allowed + kLastWindow + kWorkToLook * start.mesh.faces.size());
 }

@@ -240,6 +240,22 @@ TEST_CASE("a tube without a line keeps how it is stretched, along it and around"
   }
 }
 
+TEST_CASE("rows of triangles that stand off a tube as pleats become quads all the same") {
+  struct Case {
+    int around, along;
+    double width, height, kept;
+  };
+  for (const Case& tube : {Case{24, 20, 3, 0.3, 1.5}, Case{16, 20, 3, 0.3, 1.5}, Case{40, 12, 9, 0.3, 3}}) {
+    const Patch patch = stretched_tube(tube.around, tube.along, tube.width, tube.height, 1);
+    CAPTURE(tube.around);
+    const QuadMesh mesh = convert(patch, Options()).mesh;
+    const auto broken = broken_invariants(patch, mesh);
+    CHECK_MESSAGE(broken.empty(), broken.front());
+    CHECK(mesh.triangles.empty());
+    CHECK(largest_ratio(median(directed_sizes(patch, mesh.points, mesh.quads))) < tube.kept);
+  }
+}
+
 TEST_CASE("stretched domains: one thread and two make the same bytes") {
   for (std::uint64_t seed = 0; seed < seeds(40, 20); ++seed) {
     auto patch = large_domain(seed);

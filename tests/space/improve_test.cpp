@@ -138,8 +138,9 @@ TEST_CASE("space: a tangle of many nodes is untangled in a chart of its own") {
       }
     REQUIRE(space::find_poor(view, 0).size() > 4);
   }
+  std::size_t work = 0;
   const SurfaceMesh mended =
-      space::mend_in_charts(sheet.mesh, {}, sheet.region(), *sheet.region().background, SmoothingOptions());
+      space::mend_in_charts(sheet.mesh, {}, sheet.region(), *sheet.region().background, SmoothingOptions(), work);
   SurfaceMesh copy = mended;
   const MeshOnSurface view(copy, {}, *sheet.region().background, *sheet.region().background);
   CHECK(space::find_poor(view, 0).empty());
