@@ -7,6 +7,7 @@
 
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
+#include "cleanup/raise_worth.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/front_variants.hpp"
@@ -51,7 +52,9 @@ constexpr std::size_t kWorkPerAttempt = 200;
 constexpr std::size_t kWorkToGrade = 150;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
 /// triangle if a corner is poor after these.
-constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 6000;
+constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;
+/// What changes to the best of them may cost for each triangle.
+constexpr std::size_t kWorkToClimb = 1000;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 
@@ -79,6 +82,7 @@ class RegionConverter {
       Attempt result;
       if (has_tries) {
         result = best_of_tries(size);
+        climb(result);
       } else {
         result = begin(std::move(start_), options_, allowed_);
         finish(result);
@@ -208,8 +212,27 @@ class RegionConverter {
     return best;
   }
 
+  /// Changes one by one what a small region has become in the end.
+  void climb(Attempt& best) {
+    if (best.fault || !is_small_ || plane_.curved || options_.smoothing.method != SmoothingMethod::shape_energy) return;
+    const std::size_t size = region_.triangles.size(), spent = best.mesh.work();
+    const double most = std::min(allowed_ - double(cost_), double(kWorkToClimb * size));
+    if (most <= 0) return;
+    kernel::Mesh mesh = best.mesh;
+    const std::size_t changes = cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(most)});
+    cost_ += mesh.work() - spent;
+    best.mesh.add_work(mesh.work() - spent);
+    if (changes == 0) return;
+    raise_corners(mesh, options_.smoothing);
+    const Worth before = judge(best.mesh), after = judge(mesh);
+    if (after.sum() <= before.sum() || after.least < std::min(before.least, Worth::kGoodEnough)) return;
+    if (find_fault(mesh, region_, plane_)) return;
+    best.mesh = std::move(mesh);
+    if (wants_stages(best.options)) best.record.stages[std::size_t(Stage::repair)] = best.mesh;
+  }
+
   bool is_good(const Worth& worth) const {
-    constexpr double kGood = 2.05;
+    constexpr double kGood = 2.16;
     return !worth.is_poor() && (!is_small_ || worth.sum() > kGood);
   }
 

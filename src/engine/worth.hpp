@@ -20,12 +20,12 @@ struct Worth {
   /// Once the worst quad is good enough for every solver, it counts for little, and the others count. Many quads that
   /// are smaller than asked for have good shapes easily, so growth counts against a result.
   double sum() const {
-    constexpr double kLittle = 0.1;
+    constexpr double kLittle = 0.2;
     return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
            2 * mean - std::max(0.0, growth - kFairGrowth);
   }
   bool is_poor() const { return least < kFine; }
-  static constexpr double kGoodEnough = 0.4, kFine = 0.7;
+  static constexpr double kGoodEnough = 0.5, kFine = 0.7;
 };
 
 /// `triangles`: how many the region had.
