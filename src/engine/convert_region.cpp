@@ -82,6 +82,7 @@ class RegionConverter {
       Attempt result;
       if (has_tries) {
         result = best_of_tries(size);
+        spend_rest(result);
         climb(result);
       } else {
         result = begin(std::move(start_), options_, allowed_);
@@ -188,13 +189,17 @@ class RegionConverter {
     // Under the first it is the boundary that is poor, and no try changes that.
     constexpr double kHopeless = 0.1, kPoor = 0.4;
     constexpr int kMostIfPoor = 2;
-    Attempt best = begin(start_, options_, allowed_, Way::one_of_many);
+    // What the first may cost where others can follow: on the repair of a poor front everything would be spent.
+    constexpr double kFirst = 0.35;
+    const bool others_follow = is_small_ && tries_ != Tries::one;
+    Attempt best = begin(start_, options_, others_follow ? kFirst * allowed_ : allowed_, Way::one_of_many);
     finish(best);
     take_rows(best);
     take_chords(best);
     take_pairs(best);
     Worth worth = judge(best.mesh);
-    if (tries_ == Tries::one || best.fault || worth.least < kHopeless || is_good(worth)) return best;
+    const bool is_hopeless = worth.least < kHopeless && best.report.budgets_spent == 0;
+    if (tries_ == Tries::one || best.fault || is_hopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;
     const auto finish_most_promising = [&] {
       const auto promising = std::max_element(tries.begin(), tries.end(),
@@ -210,6 +215,21 @@ class RegionConverter {
     add_tries(tries, best, size, worth, false);
     for (int i = 0; i < kMostIfPoor && !tries.empty() && worth.least < kPoor; ++i) finish_most_promising();
     return best;
+  }
+
+  /// Goes on where the share that an attempt had was not enough.
+  void spend_rest(Attempt& best) {
+    const double left = allowed_ - double(cost_);
+    if (best.fault || !is_small_ || tries_ == Tries::one || best.report.budgets_spent == 0 || left <= 0) return;
+    Attempt more{best.mesh, best.options, double(best.mesh.work()) + left};
+    more.is_quick = true;  // cleaning is not done
+    finish(more);
+    best.mesh.add_work(more.mesh.work() - best.mesh.work());
+    if (more.fault || judge(more.mesh).sum() <= judge(best.mesh).sum()) return;
+    best.mesh = std::move(more.mesh);
+    best.report.budgets_spent = more.report.budgets_spent;
+    for (std::size_t i = 0; i < more.record.stages.size(); ++i)
+      if (more.record.stages[i]) best.record.stages[i] = std::move(more.record.stages[i]);
   }
 
   /// Changes one by one what a small region has become in the end.
