@@ -18,7 +18,7 @@ constexpr int kNearRings = 2;
 /// Corners with a smaller sine are poor: one of sine 0 counts as much as so many quads that are worth nothing.
 constexpr double kPoor = 0.5, kPriceOfPoor = 4;
 /// Of the valence score, in quads that are worth nothing.
-constexpr double kPriceOfScore = 0.5;
+constexpr double kPriceOfScore = 0.6;
 /// What a change has to bring, in quads; and what may be missing after so many passes of the relaxation, which will
 /// not be made up for.
 constexpr double kLeastGain = 0.1, kMissing = 0.5;

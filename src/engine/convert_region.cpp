@@ -53,8 +53,9 @@ constexpr std::size_t kWorkToGrade = 150;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
 /// triangle if a corner is poor after these.
 constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;
-/// What changes to the best of them may cost for each triangle.
+/// What changes to the best of them may cost for each triangle, and of what is allowed at most.
 constexpr std::size_t kWorkToClimb = 1000;
+constexpr double kShareToClimb = 0.15;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 
@@ -66,7 +67,8 @@ class RegionConverter {
         plane_(plane),
         options_(options),
         is_small_(is_small(region, options)),
-        allowed_(allowed),
+        to_climb_(may_climb() ? std::min(kShareToClimb * allowed, double(kWorkToClimb * region.triangles.size())) : 0),
+        allowed_(allowed - to_climb_),
         tries_(tries) {
     start();
   }
@@ -232,14 +234,16 @@ class RegionConverter {
       if (more.record.stages[i]) best.record.stages[i] = std::move(more.record.stages[i]);
   }
 
+  bool may_climb() const {
+    return is_small_ && !plane_.curved && options_.smoothing.method == SmoothingMethod::shape_energy;
+  }
+
   /// Changes one by one what a small region has become in the end.
   void climb(Attempt& best) {
-    if (best.fault || !is_small_ || plane_.curved || options_.smoothing.method != SmoothingMethod::shape_energy) return;
-    const std::size_t size = region_.triangles.size(), spent = best.mesh.work();
-    const double most = std::min(allowed_ - double(cost_), double(kWorkToClimb * size));
-    if (most <= 0) return;
+    if (best.fault || to_climb_ <= 0) return;
+    const std::size_t spent = best.mesh.work();
     kernel::Mesh mesh = best.mesh;
-    const std::size_t changes = cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(most)});
+    const std::size_t changes = cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(to_climb_)});
     cost_ += mesh.work() - spent;
     best.mesh.add_work(mesh.work() - spent);
     if (changes == 0) return;
@@ -387,8 +391,9 @@ class RegionConverter {
   const Region& region_;
   const Plane& plane_;
   const Options& options_;
-  const bool is_small_;  ///< so that a second try is allowed
-  const double allowed_;
+  const bool is_small_;    ///< so that a second try is allowed
+  const double to_climb_;  ///< work that is kept for climb()
+  const double allowed_;   ///< for all the rest
   const Tries tries_;
   std::size_t cost_ = 0;
   std::vector<Front> fronts_;
