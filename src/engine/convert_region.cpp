@@ -124,7 +124,13 @@ class RegionConverter {
     return one.least >= other.least && one.sum() > other.sum();
   }
 
-  Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
+  /// In the chart of a curved surface the worst quad says less: in space it will be another.
+  Worth judge(const kernel::Mesh& mesh) const {
+    constexpr double kGoodEnoughInChart = 0.4, kLittleInChart = 0.1;
+    Worth worth = worth_of(mesh, region_.triangles.size());
+    if (plane_.curved) worth.good_enough = kGoodEnoughInChart, worth.little = kLittleInChart;
+    return worth;
+  }
 
   /// A thin band as rows, if they are worth more.
   void take_rows(Attempt& best) {
@@ -193,7 +199,7 @@ class RegionConverter {
     constexpr int kMostIfPoor = 2;
     // What the first may cost where others can follow: on the repair of a poor front everything would be spent.
     constexpr double kFirst = 0.35;
-    const bool others_follow = is_small_ && tries_ != Tries::one;
+    const bool others_follow = is_small_ && tries_ != Tries::one && !plane_.curved;
     Attempt best = begin(start_, options_, others_follow ? kFirst * allowed_ : allowed_, Way::one_of_many);
     finish(best);
     take_rows(best);
@@ -222,7 +228,9 @@ class RegionConverter {
   /// Goes on where the share that an attempt had was not enough.
   void spend_rest(Attempt& best) {
     const double left = allowed_ - double(cost_);
-    if (best.fault || !is_small_ || tries_ == Tries::one || best.report.budgets_spent == 0 || left <= 0) return;
+    if (best.fault || !is_small_ || plane_.curved || tries_ == Tries::one || best.report.budgets_spent == 0 ||
+        left <= 0)
+      return;
     Attempt more{best.mesh, best.options, double(best.mesh.work()) + left};
     more.is_quick = true;  // cleaning is not done
     finish(more);
@@ -256,8 +264,8 @@ class RegionConverter {
   }
 
   bool is_good(const Worth& worth) const {
-    constexpr double kGood = 2.16;
-    return !worth.is_poor() && (!is_small_ || worth.sum() > kGood);
+    constexpr double kGood = 2.16, kGoodInChart = 2.05;
+    return !worth.is_poor() && (!is_small_ || worth.sum() > (plane_.curved ? kGoodInChart : kGood));
   }
 
   /// Adds what other constants of the front make, after those that were tried before, as far as the work goes. `best`
@@ -379,7 +387,7 @@ class RegionConverter {
   void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) const {
     if (smoothing.method != SmoothingMethod::shape_energy) return;
     const kernel::Mesh start = mesh;
-    for (double good : {Worth::kGoodEnough, smoothing.good_quality}) {
+    for (double good : {judge(mesh).good_enough, smoothing.good_quality}) {
       SmoothingOptions options = smoothing;
       options.good_quality = std::min(good, smoothing.good_quality);
       kernel::Mesh raised = start;
