@@ -48,7 +48,8 @@ struct Worth {
       mean += sine / faces;
     }
     const double growth = kTrianglesPerQuad * faces / double(triangles);
-    sum = std::min(least, qmorph::Worth::kGoodEnough) + 2 * mean - 3 * irregular - std::max(0.0, growth - kFairGrowth);
+    constexpr double kGoodEnough = 0.4;
+    sum = std::min(least, kGoodEnough) + 2 * mean - 3 * irregular - std::max(0.0, growth - kFairGrowth);
   }
 };
 

@@ -153,6 +153,20 @@ std::vector<Candidate> candidates_around(const Mesh& mesh, const Score& score, I
   return found;
 }
 
+std::vector<Candidate> best_candidates(const Mesh& mesh, const Score& score, const std::vector<Index>& nodes,
+                                       int least_gain, std::size_t most) {
+  std::vector<Candidate> candidates;
+  for (Index v : nodes) {
+    if (mesh.valence(v) > kMostValence) continue;
+    for (const Candidate& c : candidates_around(mesh, score, v, least_gain))
+      if (std::find(candidates.begin(), candidates.end(), c) == candidates.end()) candidates.push_back(c);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  if (candidates.size() > most) candidates.resize(most);
+  return candidates;
+}
+
 bool apply(Mesh& mesh, const Candidate& c, std::vector<Index>& nodes) {
   collect_around(mesh, c.h, nodes);
   if (c.k != kNone) collect_around(mesh, c.k, nodes);

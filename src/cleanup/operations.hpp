@@ -32,6 +32,10 @@ struct Candidate {
 /// Changes around v that lower the score by at least `least_gain`, best first.
 std::vector<Candidate> candidates_around(const kernel::Mesh& mesh, const Score& score, Index v, int least_gain);
 
+/// The first `most` changes around some nodes, best first, without those at nodes of very many edges.
+std::vector<Candidate> best_candidates(const kernel::Mesh& mesh, const Score& score, const std::vector<Index>& nodes,
+                                       int least_gain, std::size_t most);
+
 /// Carries a change out; topology only. Appends the nodes around it. False, perhaps half-way, if it is
 /// impossible: to be called in a transaction.
 bool apply(kernel::Mesh& mesh, const Candidate& candidate, std::vector<Index>& nodes);

@@ -145,7 +145,7 @@ class Repair {
 
   bool improve(Index f) {
     const std::vector<Index> corners = topology::nodes_of(mesh_, f);
-    const std::vector<Candidate> candidates = best_around(corners, kLeastGain, kMostCandidates);
+    const std::vector<Candidate> candidates = best_candidates(mesh_, score_, corners, kLeastGain, kMostCandidates);
     for (const Candidate& c : candidates) {
       if (!may_try(f)) return false;
       std::vector<Index> near = nodes_near(mesh_, c);
@@ -172,7 +172,8 @@ class Repair {
 
   /// Two changes, of which the first alone need not be for the better.
   bool improve_by_two(Index f) {
-    const std::vector<Candidate> first = best_around(topology::nodes_of(mesh_, f), kLeastGainOfTwo, kMostFirst);
+    const std::vector<Candidate> first =
+        best_candidates(mesh_, score_, topology::nodes_of(mesh_, f), kLeastGainOfTwo, kMostFirst);
     std::vector<Index> near;
     for (Index g : topology::grow(mesh_, {f}, 1))
       for (Index v : topology::nodes_of(mesh_, g)) near.push_back(v);
@@ -185,27 +186,13 @@ class Repair {
           if (!apply(mesh_, c, nodes)) return false;
           std::erase_if(nodes, [&](Index v) { return !mesh_.is_live_vertex(v); });
           sort_unique(nodes);
-          if (k == 0) second = best_around(nodes, kLeastGainOfTwo - c.gain, kMostSecond);
+          if (k == 0) second = best_candidates(mesh_, score_, nodes, kLeastGainOfTwo - c.gain, kMostSecond);
           return k < second.size() && apply(mesh_, second[k], nodes);
         });
         if (is_better) return true;
       }
     }
     return false;
-  }
-
-  /// The first `most` changes around some nodes, by gain.
-  std::vector<Candidate> best_around(const std::vector<Index>& nodes, int least_gain, std::size_t most) const {
-    std::vector<Candidate> candidates;
-    for (Index v : nodes) {
-      if (mesh_.valence(v) > kMostValence) continue;
-      for (const Candidate& c : candidates_around(mesh_, score_, v, least_gain))
-        if (std::find(candidates.begin(), candidates.end(), c) == candidates.end()) candidates.push_back(c);
-    }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-    if (candidates.size() > most) candidates.resize(most);
-    return candidates;
   }
 
   template <class Edit>

@@ -8,6 +8,7 @@
 #include "bands/lay_blade.hpp"
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
+#include "cleanup/raise_worth.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/front_variants.hpp"
@@ -52,7 +53,10 @@ constexpr std::size_t kWorkPerAttempt = 200;
 constexpr std::size_t kWorkToGrade = 150;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
 /// triangle if a corner is poor after these.
-constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 6000;
+constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;
+/// What changes to the best of them may cost for each triangle, and of what is allowed at most.
+constexpr std::size_t kWorkToClimb = 1000;
+constexpr double kShareToClimb = 0.15;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 
@@ -64,7 +68,8 @@ class RegionConverter {
         plane_(plane),
         options_(options),
         is_small_(is_small(region, options)),
-        allowed_(allowed),
+        to_climb_(may_climb() ? std::min(kShareToClimb * allowed, double(kWorkToClimb * region.triangles.size())) : 0),
+        allowed_(allowed - to_climb_),
         tries_(tries) {
     start();
   }
@@ -80,6 +85,8 @@ class RegionConverter {
       Attempt result;
       if (has_tries) {
         result = best_of_tries(size);
+        spend_rest(result);
+        climb(result);
       } else {
         result = begin(std::move(start_), options_, allowed_);
         finish(result);
@@ -118,7 +125,13 @@ class RegionConverter {
     return one.least >= other.least && one.sum() > other.sum();
   }
 
-  Worth judge(const kernel::Mesh& mesh) const { return worth_of(mesh, region_.triangles.size()); }
+  /// In the chart of a curved surface the worst quad says less: in space it will be another.
+  Worth judge(const kernel::Mesh& mesh) const {
+    constexpr double kGoodEnoughInChart = 0.4, kLittleInChart = 0.1;
+    Worth worth = worth_of(mesh, region_.triangles.size());
+    if (plane_.curved) worth.good_enough = kGoodEnoughInChart, worth.little = kLittleInChart;
+    return worth;
+  }
 
   /// A thin band as rows, if they are worth more.
   void take_rows(Attempt& best) {
@@ -198,13 +211,17 @@ class RegionConverter {
     // Under the first it is the boundary that is poor, and no try changes that.
     constexpr double kHopeless = 0.1, kPoor = 0.4;
     constexpr int kMostIfPoor = 2;
-    Attempt best = begin(start_, options_, allowed_, Way::one_of_many);
+    // What the first may cost where others can follow: on the repair of a poor front everything would be spent.
+    constexpr double kFirst = 0.35;
+    const bool others_follow = is_small_ && tries_ != Tries::one && !plane_.curved;
+    Attempt best = begin(start_, options_, others_follow ? kFirst * allowed_ : allowed_, Way::one_of_many);
     finish(best);
     take_rows(best);
     take_chords(best);
     take_pairs(best);
     Worth worth = judge(best.mesh);
-    if (tries_ == Tries::one || best.fault || worth.least < kHopeless || is_good(worth)) return best;
+    const bool is_hopeless = worth.least < kHopeless && best.report.budgets_spent == 0;
+    if (tries_ == Tries::one || best.fault || is_hopeless || is_good(worth)) return best;
     std::vector<Attempt> tries;
     const auto finish_most_promising = [&] {
       const auto promising = std::max_element(tries.begin(), tries.end(),
@@ -222,9 +239,47 @@ class RegionConverter {
     return best;
   }
 
+  /// Goes on where the share that an attempt had was not enough.
+  void spend_rest(Attempt& best) {
+    const double left = allowed_ - double(cost_);
+    if (best.fault || !is_small_ || plane_.curved || tries_ == Tries::one || best.report.budgets_spent == 0 ||
+        left <= 0)
+      return;
+    Attempt more{best.mesh, best.options, double(best.mesh.work()) + left};
+    more.is_quick = true;  // cleaning is not done
+    finish(more);
+    best.mesh.add_work(more.mesh.work() - best.mesh.work());
+    if (more.fault || judge(more.mesh).sum() <= judge(best.mesh).sum()) return;
+    best.mesh = std::move(more.mesh);
+    best.report.budgets_spent = more.report.budgets_spent;
+    for (std::size_t i = 0; i < more.record.stages.size(); ++i)
+      if (more.record.stages[i]) best.record.stages[i] = std::move(more.record.stages[i]);
+  }
+
+  bool may_climb() const {
+    return is_small_ && !plane_.curved && options_.smoothing.method == SmoothingMethod::shape_energy;
+  }
+
+  /// Changes one by one what a small region has become in the end.
+  void climb(Attempt& best) {
+    if (best.fault || to_climb_ <= 0) return;
+    const std::size_t spent = best.mesh.work();
+    kernel::Mesh mesh = best.mesh;
+    const std::size_t changes = cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(to_climb_)});
+    cost_ += mesh.work() - spent;
+    best.mesh.add_work(mesh.work() - spent);
+    if (changes == 0) return;
+    raise_corners(mesh, options_.smoothing);
+    const Worth before = judge(best.mesh), after = judge(mesh);
+    if (after.sum() <= before.sum() || after.least < std::min(before.least, Worth::kGoodEnough)) return;
+    if (find_fault(mesh, region_, plane_)) return;
+    best.mesh = std::move(mesh);
+    if (wants_stages(best.options)) best.record.stages[std::size_t(Stage::repair)] = best.mesh;
+  }
+
   bool is_good(const Worth& worth) const {
-    constexpr double kGood = 2.05;
-    return !worth.is_poor() && (!is_small_ || worth.sum() > kGood);
+    constexpr double kGood = 2.16, kGoodInChart = 2.05;
+    return !worth.is_poor() && (!is_small_ || worth.sum() > (plane_.curved ? kGoodInChart : kGood));
   }
 
   /// Adds what other constants of the front make, after those that were tried before, as far as the work goes. `best`
@@ -347,7 +402,7 @@ class RegionConverter {
   void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) const {
     if (smoothing.method != SmoothingMethod::shape_energy) return;
     const kernel::Mesh start = mesh;
-    for (double good : {Worth::kGoodEnough, smoothing.good_quality}) {
+    for (double good : {judge(mesh).good_enough, smoothing.good_quality}) {
       SmoothingOptions options = smoothing;
       options.good_quality = std::min(good, smoothing.good_quality);
       kernel::Mesh raised = start;
@@ -359,8 +414,9 @@ class RegionConverter {
   const Region& region_;
   const Plane& plane_;
   const Options& options_;
-  const bool is_small_;  ///< so that a second try is allowed
-  const double allowed_;
+  const bool is_small_;    ///< so that a second try is allowed
+  const double to_climb_;  ///< work that is kept for climb()
+  const double allowed_;   ///< for all the rest
   const Tries tries_;
   std::size_t cost_ = 0;
   std::vector<Front> fronts_;

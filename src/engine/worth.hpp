@@ -17,15 +17,16 @@ struct Worth {
   double least = 1;   ///< smallest scaled Jacobian of a quad
   double mean = 0;    ///< of shapes
   double growth = 0;  ///< quads over those that take the place of equilateral triangles with sides as long
+  /// From where on the worst quad counts for little, and how little.
+  double good_enough = kGoodEnough, little = 0.2;
   /// Once the worst quad is good enough for every solver, it counts for little, and the others count. Many quads that
   /// are smaller than asked for have good shapes easily, so growth counts against a result.
   double sum() const {
-    constexpr double kLittle = 0.1;
-    return std::min(least, kGoodEnough) + kLittle * std::clamp(least - kGoodEnough, 0.0, kFine - kGoodEnough) +
+    return std::min(least, good_enough) + little * std::clamp(least - good_enough, 0.0, kFine - good_enough) +
            2 * mean - std::max(0.0, growth - kFairGrowth);
   }
   bool is_poor() const { return least < kFine; }
-  static constexpr double kGoodEnough = 0.4, kFine = 0.7;
+  static constexpr double kGoodEnough = 0.5, kFine = 0.7;
 };
 
 /// `triangles`: how many the region had.

@@ -158,4 +158,14 @@ double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes) 
   return least;
 }
 
+double worst_corner_shape(const kernel::Mesh& mesh, Index f) {
+  double least = 1;
+  Index h = mesh.half_edge(f);
+  for (Index i = 0; i < mesh.degree(f); ++i, h = mesh.next(h)) {
+    const Vec2 a = mesh.vector(h), b = -mesh.vector(mesh.prev(h));
+    least = std::min(least, 4 * cross(a, b) / (a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm()));
+  }
+  return least;
+}
+
 }  // namespace qmorph::topology

@@ -43,4 +43,8 @@ double smallest_sine(const kernel::Mesh& mesh);
 /// Smallest corner sine of the polygon that runs through these nodes, counter-clockwise.
 double smallest_sine(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
 
+/// The element's worst corner, with edges a and b: 4 a x b / (a^2 + b^2 + (a - b)^2), 1 in a square. Thesis, eq. 2.1
+/// and 2.2.
+double worst_corner_shape(const kernel::Mesh& mesh, Index f);
+
 }  // namespace qmorph::topology

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "cleanup/operations.hpp"
+#include "cleanup/spoilt_grid.hpp"
 #include "kernel/fixture.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
@@ -54,29 +54,6 @@ double worst_at(const Mesh& mesh, Index v) {
     if (std::find(nodes.begin(), nodes.end(), v) != nodes.end()) worst = std::min(worst, mesh.smallest_sine(f));
   }
   return worst;
-}
-
-/// A grid of quads whose connectivity has been changed here and there, for the worse as well.
-Mesh spoilt_grid(Rng& rng) {
-  constexpr int kChanges = 8, kAny = -100;
-  Mesh mesh = quad_grid(6, 6);
-  const cleanup::Score score(mesh);
-  for (int i = 0; i < kChanges; ++i) {
-    const auto v = Index(rng.below(mesh.vertex_slots()));
-    if (!mesh.is_live_vertex(v)) continue;
-    const auto candidates = cleanup::candidates_around(mesh, score, v, kAny);
-    if (candidates.empty()) continue;
-    std::vector<Index> nodes;
-    mesh.begin();
-    bool done = cleanup::apply(mesh, candidates[rng.below(candidates.size())], nodes);
-    if (done) {
-      topology::remove_doublets(mesh, nodes);
-      done = smoothing::smooth_near(mesh, {}, nodes, 2);
-    }
-    done ? mesh.commit() : mesh.rollback();
-  }
-  smoothing::smooth(mesh, {});
-  return mesh;
 }
 
 }  // namespace

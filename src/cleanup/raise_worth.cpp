@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cleanup/raise_worth.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "cleanup/attempt.hpp"
+#include "kernel/sort_unique.hpp"
+
+namespace qmorph::cleanup {
+namespace {
+
+/// Quads whose worst corner has a smaller sine are places to begin at; the nodes of so many rings around are near.
+constexpr double kPlace = 0.85;
+constexpr int kNearRings = 2;
+/// Corners with a smaller sine are poor: one of sine 0 counts as much as so many quads that are worth nothing.
+constexpr double kPoor = 0.5, kPriceOfPoor = 4;
+/// Of the valence score, in quads that are worth nothing.
+constexpr double kPriceOfScore = 0.6;
+/// What a change has to bring, in quads; and what may be missing after so many passes of the relaxation, which will
+/// not be made up for.
+constexpr double kLeastGain = 0.1, kMissing = 0.5;
+constexpr int kLookAt = 2;
+/// How many changes are tried alone, as first ones and as second ones, and what they may cost of the valence score.
+constexpr std::size_t kMostAlone = 16, kMostFirst = 10, kMostSecond = 6;
+constexpr int kLeastScore = -6;
+constexpr int kRings = 1;  ///< that are relaxed around a change
+
+/// Some elements' part in what the mesh is worth.
+struct Sum {
+  double shape = 0, poor = 0, worst = 1;
+  std::size_t count = 0;
+  int score = 0;  ///< of the nodes
+};
+
+class Climbing {
+ public:
+  Climbing(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
+    relaxing_.iterations = 8;
+    relaxing_.untangling_sweeps = 8;
+    for (Index f = 0; f < mesh_.face_slots(); ++f)
+      if (mesh_.is_live_face(f)) add(f, all_);
+  }
+
+  std::size_t run() {
+    for (bool in_twos : {false, true}) {
+      failed_.assign(mesh_.face_slots(), false);
+      for (Index f = worst_place(); f != kNone && !budget_.is_spent(); f = worst_place())
+        if (in_twos ? improve_by_two(f) : improve(f))
+          ++changes_;
+        else
+          failed_[f] = true;
+    }
+    return changes_;
+  }
+
+ private:
+  /// One change or two: action and half-edges of each.
+  using Tried = std::array<Index, 6>;
+
+  /// The quad with the worst corner of those that nothing was found for, or kNone.
+  Index worst_place() {
+    constexpr std::size_t kLooksPerWork = 8;
+    mesh_.add_work(mesh_.face_slots() / kLooksPerWork);
+    failed_.resize(mesh_.face_slots(), false);
+    double least = kPlace;
+    Index worst = kNone;
+    for (Index f = 0; f < mesh_.face_slots(); ++f) {
+      if (!mesh_.is_live_face(f) || !mesh_.is_quad(f) || failed_[f] || mesh_.is_above(f, least)) continue;
+      least = mesh_.smallest_sine(f), worst = f;
+    }
+    return worst;
+  }
+
+  void add(Index f, Sum& sum) const {
+    sum.shape += topology::worst_corner_shape(mesh_, f);
+    const double sine = mesh_.smallest_sine(f);
+    sum.poor += std::max(0.0, kPoor - sine) / kPoor;
+    sum.worst = std::min(sum.worst, sine);
+    ++sum.count;
+  }
+
+  Sum sum_of(const std::vector<Index>& faces, const std::vector<Index>& nodes) const {
+    Sum sum;
+    for (Index f : faces) add(f, sum);
+    for (Index v : nodes)
+      if (mesh_.is_live_vertex(v)) sum.score += score_.cost(v);
+    mesh_.add_work(faces.size());
+    return sum;
+  }
+
+  /// In quads, if `before` becomes `after`.
+  double gain(const Sum& before, const Sum& after) const {
+    const double n = double(all_.count), shape = all_.shape - before.shape + after.shape;
+    return n * shape / (n - double(before.count) + double(after.count)) - all_.shape +
+           kPriceOfPoor * (before.poor - after.poor) + kPriceOfScore * (before.score - after.score);
+  }
+
+  bool is_better(const Sum& after) const {
+    return gain(before_, after) > kLeastGain && after.worst >= std::min(before_.worst, kPoor);
+  }
+
+  void start_at(Index f) {
+    near_.clear();
+    for (Index g : topology::grow(mesh_, {f}, kNearRings))
+      for (Index v : topology::nodes_of(mesh_, g)) near_.push_back(v);
+    sort_unique(near_);
+    before_ = sum_of(topology::faces_around(mesh_, near_), near_);
+  }
+
+  /// Whether this change, or these two, have not been tried since something has changed: several quads share a node.
+  bool is_new(const Candidate& first, const Candidate* second) {
+    Tried tried{Index(first.action), first.h, first.k, kNone, kNone, kNone};
+    if (second) tried[3] = Index(second->action), tried[4] = second->h, tried[5] = second->k;
+    return tried_.insert(tried).second;
+  }
+
+  bool improve(Index f) {
+    start_at(f);
+    for (const Candidate& c : best_candidates(mesh_, score_, topology::nodes_of(mesh_, f), kLeastScore, kMostAlone)) {
+      if (budget_.is_spent()) return false;
+      if (is_new(c, nullptr) && keep_if_better([&](std::vector<Index>& nodes) { return apply(mesh_, c, nodes); }))
+        return true;
+    }
+    return false;
+  }
+
+  bool improve_by_two(Index f) {
+    start_at(f);
+    for (const Candidate& c : best_candidates(mesh_, score_, topology::nodes_of(mesh_, f), kLeastScore, kMostFirst)) {
+      std::vector<Candidate> second;  // not known before the first change is made
+      for (std::size_t k = 0; k == 0 || k < second.size(); ++k) {
+        if (budget_.is_spent()) return false;
+        const bool is_better = keep_if_better([&](std::vector<Index>& nodes) {
+          if (!apply(mesh_, c, nodes)) return false;
+          std::erase_if(nodes, [&](Index v) { return !mesh_.is_live_vertex(v); });
+          sort_unique(nodes);
+          if (k == 0) second = best_candidates(mesh_, score_, nodes, kLeastScore - c.gain, kMostSecond);
+          return k < second.size() && is_new(c, &second[k]) && apply(mesh_, second[k], nodes);
+        });
+        if (is_better) return true;
+      }
+    }
+    return false;
+  }
+
+  /// `edit` appends the nodes around what it changes.
+  template <class Edit>
+  bool keep_if_better(const Edit& edit) {
+    std::vector<Index> nodes, around;
+    Sum after;
+    mesh_.begin();
+    bool kept = edit(nodes);
+    if (kept) {
+      topology::remove_doublets(mesh_, nodes);
+      around = near_;
+      around.insert(around.end(), nodes.begin(), nodes.end());
+      sort_unique(around);
+      const std::vector<Index> faces = topology::faces_around(mesh_, around);
+      const auto is_hopeful = [&](int pass) {
+        return pass != kLookAt || gain(before_, sum_of(faces, around)) > -kMissing;
+      };
+      kept = smoothing::smooth_near(mesh_, relaxing_, nodes, kRings, is_hopeful);
+      if (kept) after = sum_of(faces, around), kept = is_better(after);
+    }
+    kept ? mesh_.commit() : mesh_.rollback();
+    if (!kept) return false;
+    all_.shape += after.shape - before_.shape;
+    all_.poor += after.poor - before_.poor;
+    all_.count += after.count - before_.count;
+    forgive(around);
+    tried_.clear();
+    return true;
+  }
+
+  /// Where something has changed, what failed before may succeed.
+  void forgive(const std::vector<Index>& nodes) {
+    failed_.resize(mesh_.face_slots(), false);
+    for (Index f : topology::faces_around(mesh_, nodes)) failed_[f] = false;
+  }
+
+  kernel::Mesh& mesh_;
+  Score score_;
+  SmoothingOptions relaxing_;
+  const kernel::Budget& budget_;
+  Sum all_, before_;         ///< of the whole mesh, and near the quad that is at hand
+  std::vector<Index> near_;  ///< nodes of what may change there
+  std::set<Tried> tried_;
+  std::vector<bool> failed_;  ///< faces around which nothing has changed since nothing was found for them
+  std::size_t changes_ = 0;
+};
+
+}  // namespace
+
+std::size_t raise_worth(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+  return Climbing(mesh, smoothing, budget).run();
+}
+
+}  // namespace qmorph::cleanup
