@@ -74,8 +74,8 @@ void Front::push(Index h, State state, bool forced) {
   const Key key = key_of(level(h), forced ? kForced : unsigned(3 - state.corners()), mesh_.length(h));
   if (std::exchange(queued_[h], key) == key) return;
   const Index entry = new_entry(h);
-  const auto line = std::lower_bound(lines_.begin(), lines_.end(), key,
-                                     [](const Line& one, Key wanted) { return one.key > wanted; });
+  const auto line =
+      std::lower_bound(lines_.begin(), lines_.end(), key, [](const Line& one, Key wanted) { return one.key > wanted; });
   if (line == lines_.end() || line->key != key)
     lines_.insert(line, {key, entry, entry});
   else
