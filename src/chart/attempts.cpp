@@ -59,10 +59,11 @@ RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, 
   const std::size_t size = region.region.triangles.size();
   Effort effort{allowed};
   if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, effort, task);
+  constexpr double kTimes = 2.5;  // more than what fails is worth: each try gives a result
   RegionWork best = work_on_region(region, options, effort, task);
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {
-    if (worth.irregular < kFewIrregular || !effort.has_more_for(size)) break;
+    if (worth.irregular < kFewIrregular || !effort.has_more_for(size, kTimes)) break;
     std::optional<RegionWork> work = try_region(region, variant, effort, task);
     if (!work) continue;
     const Worth other(work->mesh, size);

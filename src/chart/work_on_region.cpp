@@ -120,11 +120,12 @@ class Worker {
  private:
   const space::Background& background() const { return *region_.background; }
 
-  /// Work for each use of windows. Ordinary surfaces take up to nine tenths of it, small ones half.
+  /// Work for each use of windows. Ordinary surfaces take a tenth of it, a double torus that is cut all over a half;
+  /// without what it needs at its cuts a surface gets smaller quads, and more tries.
   double window_allowance() const {
     constexpr double kEach = 1800;
     const std::size_t size = region_.region.triangles.size();
-    return 0.5 * (allowance(size) + kEach * double(size));
+    return 8.0 * (allowance(size) + kEach * double(size));
   }
 
   /// What is refined here is as long as there were too few nodes.
@@ -358,10 +359,10 @@ struct Best {
 
 }  // namespace
 
-bool Effort::has_more_for(std::size_t triangles) const {
+bool Effort::has_more_for(std::size_t triangles, double times) const {
   constexpr double kTries = 4, kTriesOfSmall = 8;  // in allowances; the first try takes two or three
   constexpr std::size_t kSmall = 2000;
-  return double(spent) < (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
+  return double(spent) < times * (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
 }
 
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
@@ -374,6 +375,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   Best best;
   std::size_t fewest_turned = std::numeric_limits<std::size_t>::max();
   for (int i = 1; i <= kTries; ++i) {
+    if (best.work && !effort.has_more_for(size)) break;
     distrust.all = distrust.all || i == kTries || !effort.has_more_for(size);
     Worker worker(region, options, effort, task, distrust);
     if (worker.run()) {

@@ -26,7 +26,8 @@ struct Effort {
   std::size_t spent = 0;  ///< work of all tries so far, in space as well
 
   /// Whether another try is worth its work: not where tries take long because nothing about the surface is right.
-  bool has_more_for(std::size_t triangles) const;
+  /// `times`: how much more than usual it is worth.
+  bool has_more_for(std::size_t triangles, double times = 1) const;
 };
 
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
