@@ -13,6 +13,7 @@
 #include "support/domains.hpp"
 #include "support/invariants.hpp"
 #include "support/rng.hpp"
+#include "support/seeds.hpp"
 #include "support/watcher.hpp"
 
 namespace {
@@ -22,6 +23,7 @@ using qmorph::Index;
 using qmorph::Patch;
 using qmorph::QuadMesh;
 using qmorph::test::broken_invariants;
+using qmorph::test::seeds;
 
 /// A grid of unit squares, n by m; node (x, y) is row x + y * (n + 1).
 Patch grid(Index n, Index m) {
@@ -105,7 +107,7 @@ TEST_CASE("improve: a grid stays a grid") {
 }
 
 TEST_CASE("improve: triangles that were joined at random become quads within the invariants") {
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(150, 40); ++seed) {
     CAPTURE(seed);
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;
@@ -296,7 +298,7 @@ void check_no_worse(const Patch& patch, const qmorph::Conversion& done) {
 }  // namespace
 
 TEST_CASE("improve: what is good stays as good") {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(100, 40); ++seed) {
     CAPTURE(seed);
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;
@@ -309,7 +311,7 @@ TEST_CASE("improve: what is good stays as good") {
 
 TEST_CASE("improve: no region gets worse, except where triangles have to go") {
   int worse = 0, regions = 0;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(100, 40); ++seed) {
     CAPTURE(seed);
     const Patch triangles = qmorph::test::random_domain(seed).patch;
     if (!triangles.quads.empty()) continue;

@@ -8,12 +8,13 @@
 #include <set>
 
 #include "support/invariants.hpp"
+#include "support/seeds.hpp"
 
 using qmorph::test::Domain;
 using qmorph::test::random_domain;
 
 TEST_CASE("random domains: 1000 seeds give valid patches") {
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+  for (std::uint64_t seed = 0; seed < qmorph::test::seeds(1000, 200); ++seed) {
     const Domain domain = random_domain(seed);
     const auto broken = qmorph::test::broken_inputs(domain.patch);
     if (broken.empty()) continue;
