@@ -114,8 +114,8 @@ struct Options {
   bool layers = true;
   /// Small regions whose result is poor are converted again with other constants of the front, as long as all tries
   /// together take no more triangles than this, or than six times its own where a region of up to twice as many has a
-  /// quad with a scaled Jacobian under 0.7; the best result counts. In the plane it is
-  /// changed quad by quad then, as long as that pays. 0: never.
+  /// quad with a scaled Jacobian under 0.7; the best result counts. In the plane it is changed quad by quad then, as
+  /// long as that pays. 0: never.
   std::size_t retry_triangles = 2000;
   /// A region of many triangles is cut into parts of about so many, which are worked on side by side and joined in the
   /// end; not if it has less than 1.5 times as many. The result depends on it, but not on the number of threads. 0:

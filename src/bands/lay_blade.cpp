@@ -163,8 +163,7 @@ class BladePlanner {
     ++looks_;
     std::array<Vec2, 4> q;
     for (std::size_t c = 0; c < 4; ++c) q[c] = place(face[c].of_next ? to : from, face[c].k);
-    double sine = 1;
-    for (std::size_t c = 0; c < 4; ++c) sine = std::min(sine, corner_sine(q[c], q[(c + 1) % 4], q[(c + 3) % 4]));
+    const double sine = smallest_corner_sine(q[0], q[1], q[2], q[3]);
     return sine > kStraightSine ? 1 / sine : kInfinite;
   }
 

@@ -71,8 +71,7 @@ class ChordPlanner {
   }
 
   static double price(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const double sine =
-        std::min({corner_sine(a, b, d), corner_sine(b, c, a), corner_sine(c, d, b), corner_sine(d, a, c)});
+    const double sine = smallest_corner_sine(a, b, c, d);
     return sine > kStraightSine ? 1 / sine : kInfinite;
   }
 

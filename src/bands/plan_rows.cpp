@@ -25,8 +25,7 @@ constexpr int more_mode(bool above, int level) { return kMore + 2 * level + abov
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 double badness(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const double sine =
-      std::min({corner_sine(a, b, d), corner_sine(b, c, a), corner_sine(c, d, b), corner_sine(d, a, c)});
+  const double sine = smallest_corner_sine(a, b, c, d);
   constexpr double kInverted = 4;
   return sine > 0 ? 1 - sine : 1 - kInverted * sine;
 }

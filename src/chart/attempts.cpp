@@ -48,8 +48,8 @@ struct Worth {
       mean += sine / faces;
     }
     const double growth = kTrianglesPerQuad * faces / double(triangles);
-    constexpr double kGoodEnough = 0.4;
-    sum = std::min(least, kGoodEnough) + 2 * mean - 3 * irregular - std::max(0.0, growth - kFairGrowth);
+    sum = std::min(least, qmorph::Worth::kGoodEnoughInChart) + 2 * mean - 3 * irregular -
+          std::max(0.0, growth - kFairGrowth);
   }
 };
 

@@ -123,9 +123,9 @@ class Worker {
   /// Work for each use of windows. Ordinary surfaces take a tenth of it, a double torus that is cut all over a half;
   /// without what it needs at its cuts a surface gets smaller quads, and more tries.
   double window_allowance() const {
-    constexpr double kEach = 1800;
+    constexpr double kTimes = 8, kEach = 1800;
     const std::size_t size = region_.region.triangles.size();
-    return 8.0 * (allowance(size) + kEach * double(size));
+    return kTimes * (allowance(size) + kEach * double(size));
   }
 
   /// What is refined here is as long as there were too few nodes.

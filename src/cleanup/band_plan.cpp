@@ -16,8 +16,7 @@ constexpr double kIrregular = 0.25;
 enum Mode { one_row, entering, two_rows };  // one step at least lies between entering two rows and leaving them
 
 double badness(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const double sine =
-      std::min({corner_sine(a, b, d), corner_sine(b, c, a), corner_sine(c, d, b), corner_sine(d, a, c)});
+  const double sine = smallest_corner_sine(a, b, c, d);
   constexpr double kInverted = 4;  // smoothing may mend it, or not
   return sine > 0 ? 1 - sine : 1 - kInverted * sine;
 }

@@ -47,9 +47,7 @@ double closing_sine(const Mesh& mesh, const TipRow& row, const Sides& sides, std
   std::array<Vec2, 4> p{mesh.point(sides.a[quads]), mesh.point(sides.a[quads + 1]), mesh.point(sides.b[quads]),
                         place(mesh, sides, quads, quads)};
   if (!row.tip_first) std::reverse(p.begin(), p.end());
-  double least = 1;
-  for (std::size_t i = 0; i < 4; ++i) least = std::min(least, corner_sine(p[i], p[(i + 1) % 4], p[(i + 3) % 4]));
-  return least;
+  return smallest_corner_sine(p[0], p[1], p[2], p[3]);
 }
 
 /// A corner of the boundary up to this angle is a tip; what is nearer to straight than to right is strained.

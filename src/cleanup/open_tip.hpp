@@ -9,8 +9,8 @@
 
 namespace qmorph::cleanup {
 
-/// A row of quads from a side of the boundary on, as half-edges, each an opposite side of the one before: of the quad at
-/// the tip, and so on. All run the same way.
+/// A row of quads from a side of the boundary on, as half-edges, each an opposite side of the one before: of the quad
+/// at the tip, and so on. All run the same way.
 ///
 ///     tip = b0 ---- b1 ---- b2 -- ...        The quad (b0, a1, a2, b1) has a straight corner at a1, and can have none
 ///          \       /       /                 that is not as long as two sides of the boundary are straight.

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "cleanup/score.hpp"
+#include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
+#include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
 
@@ -39,5 +41,33 @@ std::vector<Candidate> best_candidates(const kernel::Mesh& mesh, const Score& sc
 /// Carries a change out; topology only. Appends the nodes around it. False, perhaps half-way, if it is
 /// impossible: to be called in a transaction.
 bool apply(kernel::Mesh& mesh, const Candidate& candidate, std::vector<Index>& nodes);
+
+/// What is tried of two changes together, the first of which alone need not be for the better.
+struct TwoChanges {
+  int least_gain = 0;  ///< of both
+  std::size_t most_first = 0, most_second = 0;
+};
+
+/// Tries two changes together around some nodes until one pair is kept. `attempt` is given an edit that appends the
+/// nodes around what it changes, and says whether it has kept it; `is_new`, whether a pair is worth that.
+template <class IsNew, class Attempt>
+bool try_two_changes(kernel::Mesh& mesh, const Score& score, const std::vector<Index>& around, const TwoChanges& limits,
+                     const kernel::Budget& budget, const IsNew& is_new, const Attempt& attempt) {
+  for (const Candidate& c : best_candidates(mesh, score, around, limits.least_gain, limits.most_first)) {
+    std::vector<Candidate> second;  // not known before the first change is made
+    for (std::size_t k = 0; k == 0 || k < second.size(); ++k) {
+      if (budget.is_spent()) return false;
+      const bool is_kept = attempt([&](std::vector<Index>& nodes) {
+        if (!apply(mesh, c, nodes)) return false;
+        std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
+        sort_unique(nodes);
+        if (k == 0) second = best_candidates(mesh, score, nodes, limits.least_gain - c.gain, limits.most_second);
+        return k < second.size() && is_new(c, second[k]) && apply(mesh, second[k], nodes);
+      });
+      if (is_kept) return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace qmorph::cleanup

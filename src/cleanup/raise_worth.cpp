@@ -130,21 +130,10 @@ class Climbing {
 
   bool improve_by_two(Index f) {
     start_at(f);
-    for (const Candidate& c : best_candidates(mesh_, score_, topology::nodes_of(mesh_, f), kLeastScore, kMostFirst)) {
-      std::vector<Candidate> second;  // not known before the first change is made
-      for (std::size_t k = 0; k == 0 || k < second.size(); ++k) {
-        if (budget_.is_spent()) return false;
-        const bool is_better = keep_if_better([&](std::vector<Index>& nodes) {
-          if (!apply(mesh_, c, nodes)) return false;
-          std::erase_if(nodes, [&](Index v) { return !mesh_.is_live_vertex(v); });
-          sort_unique(nodes);
-          if (k == 0) second = best_candidates(mesh_, score_, nodes, kLeastScore - c.gain, kMostSecond);
-          return k < second.size() && is_new(c, &second[k]) && apply(mesh_, second[k], nodes);
-        });
-        if (is_better) return true;
-      }
-    }
-    return false;
+    return try_two_changes(
+        mesh_, score_, topology::nodes_of(mesh_, f), {kLeastScore, kMostFirst, kMostSecond}, budget_,
+        [&](const Candidate& first, const Candidate& second) { return is_new(first, &second); },
+        [&](const auto& edit) { return keep_if_better(edit); });
   }
 
   /// `edit` appends the nodes around what it changes.

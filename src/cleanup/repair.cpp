@@ -170,29 +170,19 @@ class Repair {
     return false;
   }
 
-  /// Two changes, of which the first alone need not be for the better.
   bool improve_by_two(Index f) {
-    const std::vector<Candidate> first =
-        best_candidates(mesh_, score_, topology::nodes_of(mesh_, f), kLeastGainOfTwo, kMostFirst);
     std::vector<Index> near;
     for (Index g : topology::grow(mesh_, {f}, 1))
       for (Index v : topology::nodes_of(mesh_, g)) near.push_back(v);
-    for (const Candidate& c : first) {
-      std::vector<Candidate> second;  // not known before the first change is made
-      for (std::size_t k = 0; k == 0 || k < second.size(); ++k) {
-        if (budget_.is_spent()) return false;
-        const bool is_better = try_edit(near, [&](std::vector<Index>& nodes) {
-          nodes = near;
-          if (!apply(mesh_, c, nodes)) return false;
-          std::erase_if(nodes, [&](Index v) { return !mesh_.is_live_vertex(v); });
-          sort_unique(nodes);
-          if (k == 0) second = best_candidates(mesh_, score_, nodes, kLeastGainOfTwo - c.gain, kMostSecond);
-          return k < second.size() && apply(mesh_, second[k], nodes);
+    return try_two_changes(
+        mesh_, score_, topology::nodes_of(mesh_, f), {kLeastGainOfTwo, kMostFirst, kMostSecond}, budget_,
+        [](const Candidate&, const Candidate&) { return true; },
+        [&](const auto& edit) {
+          return try_edit(near, [&](std::vector<Index>& nodes) {
+            nodes = near;
+            return edit(nodes);
+          });
         });
-        if (is_better) return true;
-      }
-    }
-    return false;
   }
 
   template <class Edit>

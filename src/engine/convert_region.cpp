@@ -127,9 +127,9 @@ class RegionConverter {
 
   /// In the chart of a curved surface the worst quad says less: in space it will be another.
   Worth judge(const kernel::Mesh& mesh) const {
-    constexpr double kGoodEnoughInChart = 0.4, kLittleInChart = 0.1;
+    constexpr double kLittleInChart = 0.1;
     Worth worth = worth_of(mesh, region_.triangles.size());
-    if (plane_.curved) worth.good_enough = kGoodEnoughInChart, worth.little = kLittleInChart;
+    if (plane_.curved) worth.good_enough = Worth::kGoodEnoughInChart, worth.little = kLittleInChart;
     return worth;
   }
 

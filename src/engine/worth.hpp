@@ -27,6 +27,7 @@ struct Worth {
   }
   bool is_poor() const { return least < kFine; }
   static constexpr double kGoodEnough = 0.5, kFine = 0.7;
+  static constexpr double kGoodEnoughInChart = 0.4;  ///< of a curved surface: in space the worst quad will be another
 };
 
 /// `triangles`: how many the region had.

@@ -3,6 +3,7 @@
 /// Plane vectors. Angles are in radians, counter-clockwise positive.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -34,6 +35,11 @@ inline double corner_sine(const Vec2& at, const Vec2& to_next, const Vec2& to_pr
   const Vec2 a = to_next - at, b = to_previous - at;
   const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
   return lengths > 0 ? cross(a, b) / lengths : 0.0;
+}
+
+/// The same at the worst corner of a quad that runs counter-clockwise: its scaled Jacobian.
+inline double smallest_corner_sine(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  return std::min({corner_sine(a, b, d), corner_sine(b, c, a), corner_sine(c, d, b), corner_sine(d, a, c)});
 }
 
 }  // namespace qmorph

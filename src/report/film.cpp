@@ -11,8 +11,8 @@
 namespace qmorph::report {
 namespace {
 
-/// Smaller movements are not recorded, relative to a short edge of the mesh: nobody sees them. And surfaces, each rounded
-/// in axes of its own, still meet at their rims.
+/// Smaller movements are not recorded, relative to a short edge of the mesh: nobody sees them. And surfaces, each
+/// rounded in axes of its own, still meet at their rims.
 constexpr double kQuantum = 1.0 / 256;
 /// The edge that counts as short: so many are shorter.
 constexpr double kShortEdges = 0.02;

@@ -61,8 +61,8 @@ void print_once(std::string_view prefix, const std::vector<std::string>& lines, 
   }
 }
 
-/// Warnings that only numbers tell apart are of a kind: of a kind that many surfaces have, the first one is printed, with
-/// the tags of the others.
+/// Warnings that only numbers tell apart are of a kind: of a kind that many surfaces have, the first one is printed,
+/// with the tags of the others.
 class SurfaceWarnings {
  public:
   explicit SurfaceWarnings(const std::vector<SurfaceReport>& surfaces) {
