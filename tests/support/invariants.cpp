@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -21,7 +22,7 @@ using EdgeSet = std::set<std::pair<Index, Index>>;
 /// A corner counts as convex from this sine on; a straight corner is about 1e-17.
 constexpr double kStraight = 1e-12;
 constexpr double kSameArea = 1e-9;
-constexpr double kSamePlace = 1e-9;  // of the diagonal
+constexpr double kSamePlace = 1e-9;  // of the input's shortest edge
 constexpr double kFlat = 1e-6;       // of the diagonal
 
 double diagonal(const std::vector<Vector3d>& points) {
@@ -147,13 +148,23 @@ void check_kept_quads(Case& c) {
   }
 }
 
+/// Of the edges that have a length. Points that no element uses, which may be far away, do not count.
+double shortest_edge(const Case& c) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Side& s : c.in_sides) {
+    const double length = (c.in.points[s.high] - c.in.points[s.low]).norm();
+    if (length > 0) shortest = std::min(shortest, length);
+  }
+  return shortest;
+}
+
 /// Counts points at the place of another, to within kSamePlace.
 std::size_t doubles(const std::vector<Vector3d>& points, double size) {
-  std::map<std::array<long long, 3>, std::size_t> places;
+  std::map<std::array<double, 3>, std::size_t> places;
   std::size_t count = 0;
   for (const Vector3d& p : points) {
-    std::array<long long, 3> key;
-    for (int k = 0; k < 3; ++k) key[std::size_t(k)] = std::llround(p[k] / (size * kSamePlace));
+    std::array<double, 3> key;
+    for (int k = 0; k < 3; ++k) key[std::size_t(k)] = std::round(p[k] / (size * kSamePlace));
     count += places[key]++ > 0;
   }
   return count;
@@ -180,7 +191,7 @@ void check_conformity(Case& c) {
   check(c.out.quads);
   for (Index i = 0; i < used.size(); ++i)
     if (!used[i]) c.bad.add("conformity", "no element uses the node at ", at(c.place(i)));
-  const double size = diagonal(c.in.points);
+  const double size = shortest_edge(c);
   const std::size_t before = doubles(c.in.points, size), after = doubles(c.out.points, size);
   if (after > before) c.bad.add("conformity", after - before, " nodes at the place of another");
 }
