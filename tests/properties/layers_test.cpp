@@ -23,6 +23,7 @@ using qmorph::kNone;
 using qmorph::QuadMesh;
 using qmorph::test::layered_domain;
 using qmorph::test::LayeredDomain;
+using qmorph::test::allows_laws;
 using qmorph::test::seeds;
 
 using Quad = std::array<Index, 4>;
@@ -201,7 +202,7 @@ TEST_CASE("stretched triangles: outside of layers they become quads of the same 
     return largest_ratio(median(qmorph::directed_sizes(before, after.points, after.quads))) <=
            qmorph::kLargestSizeRatio;
   };
-  for (std::uint64_t seed = 0; seed < seeds(60, 18); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(60); ++seed) {
     const auto domain = qmorph::test::random_domain(seed);
     qmorph::test::Rng rng(seed);
     const double angle = rng.between(0, 3), stretch = std::pow(10, rng.between(1, 3));
@@ -222,6 +223,7 @@ TEST_CASE("stretched triangles: outside of layers they become quads of the same 
     flat_kept += is_kept(domain.patch, flat);
     kept += is_kept(patch, mesh);
   }
+  if (!allows_laws(seeds(60))) return;
   CHECK(double(kept) > 0.9 * double(flat_kept));
   CHECK(double(quads) == doctest::Approx(double(flat_quads)).epsilon(0.1));
 }

@@ -112,8 +112,13 @@ TEST_CASE("random domains in parts: turned by right angles, mirrored or renumber
 }
 
 TEST_CASE("curved surfaces: turned by right angles, mirrored, turned over or renumbered, they become the same quads") {
-  for (std::uint64_t seed = 0; seed < seeds(4); ++seed)
-    check_stable(random_surface(seed).patch, seed, converted(options_for(seed)));
+  std::uint64_t tried = 0;
+  for (std::uint64_t seed = 0; tried < seeds(8); ++seed) {
+    const Patch patch = random_surface(seed).patch;
+    if (patch.triangles.size() > 400) continue;  // each is converted a dozen times
+    check_stable(patch, seed, converted(options_for(seed)));
+    ++tried;
+  }
 }
 
 TEST_CASE("random domains: improved, turned by right angles, mirrored or renumbered, they become the same quads") {
@@ -145,7 +150,7 @@ TEST_CASE("random domains: moved by what no coordinate is rounded for, they beco
 
 TEST_CASE("random domains: moved and turned anyhow, pooled figures stay within a hundredth") {
   Pool as_they_are, shifted, turned;
-  for (std::uint64_t seed = 0; seed < seeds(200, 60); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(200); ++seed) {
     const Patch patch = random_domain(seed).patch;
     Rng rng(~seed);
     const double size = (patch.points.back() - patch.points.front()).norm();
@@ -154,6 +159,7 @@ TEST_CASE("random domains: moved and turned anyhow, pooled figures stay within a
     shifted.add(convert(moved(patch, 1, Eigen::Matrix3d::Identity(), shift), options_for(seed)).mesh);
     turned.add(convert(moved(patch, 1, random_rotation(rng), Eigen::Vector3d::Zero()), options_for(seed)).mesh);
   }
+  if (!allows_laws(seeds(200))) return;
   // Turned by any angle, triangles are cut otherwise by the front. Of some thousand irregular nodes 2 % are chance.
   constexpr double kHundredth = 0.01, kByChance = 0.03;
   check_alike(as_they_are, shifted, kHundredth);

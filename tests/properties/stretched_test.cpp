@@ -166,12 +166,13 @@ Patch stretched_tube(int around, int along, double width, double height, std::ui
 
 TEST_CASE("stretched domains become what they become unstretched, stretched") {
   Pools pools;
-  for (std::uint64_t seed = 0; seed < seeds(150, 40); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(150); ++seed) {
     const auto patch = large_domain(seed);
     if (!patch) continue;
     CAPTURE(seed);
     pools.add(*patch, stretching(std::array{5.0, 10.0, 30.0, 100.0}[seed % 4]));
   }
+  if (!allows_laws(seeds(150))) return;
   REQUIRE(pools.domains > 5);
   CHECK(pools.stretched.mean() > 0.96 * pools.plain.mean());
   CHECK(pools.stretched.irregular_share() < 1.2 * pools.plain.irregular_share());
@@ -182,7 +183,7 @@ TEST_CASE("stretched domains become what they become unstretched, stretched") {
 
 TEST_CASE("domains that are stretched around a circle become quads that are stretched around it") {
   Pools pools;
-  for (std::uint64_t seed = 0; seed < seeds(150, 100); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(150); ++seed) {
     const auto patch = large_domain(seed);
     if (!patch) continue;
     double reach = 0;
@@ -190,6 +191,7 @@ TEST_CASE("domains that are stretched around a circle become quads that are stre
     CAPTURE(seed);
     pools.add(*patch, bending(std::array{5.0, 10.0}[seed % 2], reach));
   }
+  if (!allows_laws(seeds(150))) return;
   REQUIRE(pools.domains > 5);
   // Some have no chart, because what is between their holes does not close, and few have no valid result.
   CHECK(pools.stretched.mean() > 0.9 * pools.plain.mean());
@@ -200,7 +202,7 @@ TEST_CASE("domains that are stretched around a circle become quads that are stre
 
 TEST_CASE("stretched domains that are rolled up become what they become flat") {
   Pools flat, bent;
-  for (std::uint64_t seed = 0; seed < seeds(150, 40); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(150); ++seed) {
     const auto patch = large_domain(seed);
     if (!patch) continue;
     CAPTURE(seed);
@@ -208,6 +210,7 @@ TEST_CASE("stretched domains that are rolled up become what they become flat") {
     flat.add(*patch, stretching(ratio));
     bent.add(*patch, seed % 2 ? rolled_along(*patch, ratio) : rolled_across(*patch, ratio));
   }
+  if (!allows_laws(seeds(150))) return;
   REQUIRE(bent.domains > 5);
   CHECK(bent.stretched.mean() > 0.97 * flat.stretched.mean());
   CHECK(bent.stretched.irregular_share() < 1.2 * flat.stretched.irregular_share() + 0.004);
@@ -221,9 +224,8 @@ TEST_CASE("a tube without a line keeps how it is stretched, along it and around"
     double width, height;  // of a triangle
   };
   for (const Case& tube : {Case{120, 20, 0.3, 3}, Case{70, 100, 3, 0.3}}) {
-    constexpr std::uint64_t kTubes = 8;
     Pool pool;
-    for (std::uint64_t seed = 0; seed < kTubes; ++seed) {
+    for (std::uint64_t seed = 0; seed < seeds(8, 2); ++seed) {
       const Patch patch = stretched_tube(tube.around, tube.along, tube.width, tube.height, seed);
       const QuadMesh mesh = convert(patch, Options()).mesh;
       CAPTURE(seed);
@@ -257,7 +259,7 @@ TEST_CASE("rows of triangles that stand off a tube as pleats become quads all th
 }
 
 TEST_CASE("stretched domains: one thread and two make the same bytes") {
-  for (std::uint64_t seed = 0; seed < seeds(40, 6); ++seed) {
+  for (std::uint64_t seed = 0; seed < seeds(40, 4); ++seed) {
     auto patch = large_domain(seed);
     if (!patch) continue;
     patch = mapped(*patch, bending(5, 2).to);
