@@ -225,7 +225,8 @@ TEST_CASE("a tube without a line keeps how it is stretched, along it and around"
   };
   for (const Case& tube : {Case{120, 20, 0.3, 3}, Case{70, 100, 3, 0.3}}) {
     Pool pool;
-    for (std::uint64_t seed = 0; seed < seeds(8, 2); ++seed) {
+    const std::uint64_t tubes = seeds(8, 2);
+    for (std::uint64_t seed = 0; seed < tubes; ++seed) {
       const Patch patch = stretched_tube(tube.around, tube.along, tube.width, tube.height, seed);
       const QuadMesh mesh = convert(patch, Options()).mesh;
       CAPTURE(seed);
@@ -237,6 +238,7 @@ TEST_CASE("a tube without a line keeps how it is stretched, along it and around"
       CHECK(largest_ratio(median(directed_sizes(patch, mesh.points, mesh.quads))) < 1.15);
       pool.add(mesh);
     }
+    if (tubes < 8) continue;  // too few for laws about sums
     CHECK(pool.mean() > 0.9);
     CHECK(pool.irregular_share() < 0.01);
   }
