@@ -22,8 +22,8 @@ using qmorph::improve;
 using qmorph::Index;
 using qmorph::Patch;
 using qmorph::QuadMesh;
-using qmorph::test::broken_invariants;
 using qmorph::test::allows_laws;
+using qmorph::test::broken_invariants;
 using qmorph::test::seeds;
 
 /// A grid of unit squares, n by m; node (x, y) is row x + y * (n + 1).

@@ -21,9 +21,9 @@ namespace {
 using qmorph::Index;
 using qmorph::kNone;
 using qmorph::QuadMesh;
+using qmorph::test::allows_laws;
 using qmorph::test::layered_domain;
 using qmorph::test::LayeredDomain;
-using qmorph::test::allows_laws;
 using qmorph::test::seeds;
 
 using Quad = std::array<Index, 4>;
