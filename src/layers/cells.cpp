@@ -25,6 +25,7 @@ std::size_t Cells::row_length(Index i, Index first, std::size_t most) const {
     while (true) {
       if (sides_.is_wall(side) && ++walls) break;
       const Index other = sides_.opposite(side), at = beside(side);
+      if (at == kNone && sides_.turns_sharply(side) && ++walls) break;
       if (at == kNone || at < first) break;
       if (at == i || ++length >= most) return most;
       side = other == cells_[at].left ? cells_[at].right : cells_[at].left;

@@ -53,7 +53,8 @@ void drop_chance_rows(Cells& cells, const std::vector<Index>& thin) {
   for (Index t : thin) {
     if (cells.is_taken(t) || gaps.sizes[gaps.part_of[t]] < kMany) continue;
     for (Index c = 3 * t; c < 3 * t + 3; ++c)
-      if (!sides.is_wall(c) && cells.is_taken(sides.opposite(c) / 3)) ++block_at(sides.opposite(c) / 3).ragged;
+      if (!sides.is_wall(c) && cells.is_taken(sides.opposite(c) / 3) && !sides.turns_sharply(c))
+        ++block_at(sides.opposite(c) / 3).ragged;
   }
   for (Index i = 0; i < cells.size(); ++i)
     if (cells.is_live(i)) block_at(cells[i].triangles[0]).leans.push_back(lean_of(sides, cells[i]));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "layers/sides.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 
 namespace qmorph::layers {
@@ -65,6 +68,16 @@ Sides::Sides(const Patch& patch) : patch_(patch), opposite_(3 * patch.triangles.
       i = end;
     }
   }
+}
+
+bool Sides::turns_sharply(Index c) const {
+  constexpr double kSharply = 40 * std::numbers::pi / 180;
+  const auto normal = [&](Index t) {
+    const Eigen::Vector3d& a = point(from(3 * t));
+    return Eigen::Vector3d((point(from(3 * t + 1)) - a).cross(point(from(3 * t + 2)) - a));
+  };
+  const Eigen::Vector3d one = normal(c / 3), other = normal(opposite(c) / 3);
+  return one.dot(other) < std::cos(kSharply) * one.norm() * other.norm();
 }
 
 Index Sides::next_wall(Index c) const {

@@ -27,6 +27,8 @@ class Sides {
   /// any edge that more than two triangles have.
   Index opposite(Index c) const { return opposite_[c]; }
   bool is_wall(Index c) const { return opposite_[c] == kNone; }
+  /// Whether the triangle across belongs to another face of the model, as at the rim of a cylinder. Side c is no wall.
+  bool turns_sharply(Index c) const;
 
   /// The wall side that begins where the wall side c ends, and the one that ends where it begins.
   Index next_wall(Index c) const;

@@ -11,6 +11,7 @@
 
 #include "qmorph/convert.hpp"
 #include "qmorph/observer.hpp"
+#include "qmorph/quality.hpp"
 #include "support/draft.hpp"
 #include "support/invariants.hpp"
 
@@ -149,6 +150,29 @@ TEST_CASE("layers: round a sharp corner without a fan, the last cells of both wa
 TEST_CASE("layers: a surface in space has its layers, flat or not") {
   const auto place = [](Index i, Index j) { return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j); };
   CHECK(whole_cells(grid(40, 8, place), 40, 8) == 320);
+}
+
+TEST_CASE("layers: the wall of a cylinder, as CAD programs write it, is a quad for each facet") {
+  for (const Index facets : {32, 33, 41}) {  // odd: one column is another
+    CAPTURE(facets);
+    const double step = 2 * std::numbers::pi / facets;
+    Patch patch =
+        grid(facets, 1, [&](Index i, Index j) { return Vector3d(std::cos(step * i), std::sin(step * i), 10.0 * j); });
+    for (auto& t : patch.triangles)  // the last column of nodes is the first
+      for (Index& v : t) v -= v % (facets + 1) == facets ? facets : 0;
+    for (const Index lid : {0, 1}) {
+      const Index first = lid * (facets + 1), middle = Index(patch.points.size());
+      patch.points.emplace_back(0, 0, 10.0 * lid);
+      for (Index i = 0; i < facets; ++i) {
+        const Index a = first + i, b = first + (i + 1) % facets;
+        patch.triangles.push_back(lid ? std::array{middle, a, b} : std::array{middle, b, a});
+      }
+    }
+    CHECK(layer_quads(patch) >= facets - 1);
+    const qmorph::QuadMesh mesh = qmorph::convert(patch).mesh;
+    CHECK(mesh.triangles.empty());
+    CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.7);
+  }
 }
 
 TEST_CASE("layers: a constraint is a wall on both sides, and no cell crosses it") {
