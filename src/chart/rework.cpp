@@ -57,55 +57,6 @@ SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces
   return result;
 }
 
-void drop_flat_pairs(SurfaceMesh& mesh, const std::vector<std::pair<Index, Index>>& creases) {
-  std::vector<Index> faces_at(mesh.points.size(), 0);
-  for (const Face& face : mesh.faces)
-    for (Index i = 0; i < degree(face); ++i) ++faces_at[face[i]];
-  const auto is_enclosed = [&](Index v) { return faces_at[v] == 2 && !mesh.fixed[v]; };
-  std::vector<std::pair<Face, Index>> candidates;  // nodes in the order of their numbers, and the face
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    Face face = mesh.faces[f];
-    if (degree(face) != 4) continue;
-    for (Index i = 0; i < 4; ++i) {
-      if (!is_enclosed(face[i]) || !is_enclosed(face[(i + 1) % 4])) continue;
-      const auto must_stay = [&](Index k) {
-        const std::pair<Index, Index> edge = std::minmax(face[k % 4], face[(k + 1) % 4]);
-        return mesh.open[4 * f + k % 4] || std::binary_search(creases.begin(), creases.end(), edge);
-      };
-      if (must_stay(i + 3) || must_stay(i) || must_stay(i + 1)) continue;
-      std::sort(face.begin(), face.end());
-      candidates.emplace_back(face, f);
-      break;
-    }
-  }
-  std::sort(candidates.begin(), candidates.end());
-  std::vector<char> gone(mesh.faces.size(), 0);
-  bool is_any_gone = false;
-  for (std::size_t k = 1; k < candidates.size(); ++k)
-    if (candidates[k - 1].first == candidates[k].first)
-      gone[candidates[k - 1].second] = gone[candidates[k].second] = is_any_gone = true;
-  if (!is_any_gone) return;
-  Index kept = 0;
-  for (Index f = 0; f < mesh.faces.size(); ++f) {
-    if (gone[f]) continue;
-    mesh.faces[kept] = mesh.faces[f];
-    mesh.near[kept] = mesh.near[f];
-    for (Index i = 0; i < 4; ++i) mesh.open[4 * kept + i] = mesh.open[4 * f + i];
-    ++kept;
-  }
-  mesh.faces.resize(kept);
-  mesh.near.resize(kept);
-  mesh.open.resize(4 * kept);
-}
-
-bool has_double_edge(const Piece& piece) {
-  std::vector<std::pair<Index, Index>> edges;  // from, to
-  for (const Face& face : piece.faces)
-    for (Index i = 0; i < degree(face); ++i) edges.emplace_back(face[i], face[next_corner(face, i)]);
-  std::sort(edges.begin(), edges.end());
-  return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
-}
-
 bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {
   const auto node = [&](Index v) { return v < piece.points.size() ? piece.node[v] : kNone - 1 - v; };
   std::vector<std::tuple<Index, Index, bool>> edges;  // nodes, whether it is boundary

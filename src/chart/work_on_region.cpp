@@ -237,7 +237,6 @@ class Worker {
     for (const Reworked& result : results) effort_.spent += result.mesh.work();
     note_stretched(is_stretched);
     mesh_ = replace(mesh_, results);
-    drop_flat_pairs(mesh_, creases_);
     if (results.size() < parts) pair_up_the_rest();
   }
 
@@ -323,7 +322,6 @@ class Worker {
       }
       changed = changed || !results.empty();
       mesh_ = replace(mesh_, results);
-      drop_flat_pairs(mesh_, creases_);
     }
     effort_.spent += budget.spent();
     return changed;

@@ -201,7 +201,7 @@ class Mender {
   std::optional<chart::Reworked> rework(const MeshOnSurface& view, const Piece& piece,
                                         const std::vector<Index>& faces) {
     constexpr std::size_t kWorkToLayOut = 1500;  // of a face: the triangles under it, and some around
-    if (piece.boundary_sides == 0 || chart::has_double_edge(piece)) return {};
+    if (piece.boundary_sides == 0) return {};
     spent_ += kWorkToLayOut * faces.size();
     const Ground ground(triangles_, opposite_, view, faces);
     spent_ += ground.chart().flattening().work;
