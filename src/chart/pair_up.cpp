@@ -204,10 +204,10 @@ std::size_t pair_up(SurfaceMesh& mesh, const std::vector<Edge>& walls, const spa
   while (looks > 0) {
     const std::vector<bool> is_wall = sides_on(mesh, walls);
     Chains chains(mesh, is_wall, background, smoothing);
-    const std::vector<Reworked> results = chains.run(longest, looks);
+    std::vector<Reworked> results = chains.run(longest, looks);
     looks -= std::min(looks, mesh.faces.size());
     if (!results.empty()) {
-      mesh = replace(mesh, results);
+      mesh = replace_where_simple(mesh, std::move(results));
       continue;
     }
     if (longest > mesh.faces.size()) break;

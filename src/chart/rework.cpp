@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "kernel/sort_unique.hpp"
+
 namespace qmorph::chart {
 namespace {
 
@@ -36,6 +38,19 @@ void put(const Reworked& work, SurfaceMesh& result) {
   }
 }
 
+/// Edges inside a piece from one node of its rim to another, which may be joined outside of it, too.
+std::vector<std::pair<Index, Index>> chords(const Reworked& work) {
+  const kernel::Mesh& mesh = work.mesh;
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {
+    if (!mesh.is_live_half_edge(h) || mesh.is_boundary_edge(h)) continue;
+    const Index a = mesh.origin(h), b = mesh.target(h);
+    if (mesh.is_boundary(a) && mesh.is_boundary(b))
+      edges.emplace_back(std::minmax(work.piece->node[a], work.piece->node[b]));
+  }
+  return edges;
+}
+
 }  // namespace
 
 SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces) {
@@ -55,6 +70,30 @@ SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces
   }
   for (const Reworked& work : pieces) put(work, result);
   return result;
+}
+
+SurfaceMesh replace_where_simple(const SurfaceMesh& mesh, std::vector<Reworked> pieces) {
+  SurfaceMesh result = replace(mesh, pieces);
+  std::vector<std::pair<Index, Index>> edges;
+  for (const Reworked& work : pieces)
+    for (const auto& edge : chords(work)) edges.push_back(edge);
+  if (edges.empty()) return result;
+  sort_unique(edges);
+  std::vector<int> sides(edges.size(), 0);
+  const auto place = [&](const std::pair<Index, Index>& edge) {
+    return std::size_t(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
+  };
+  for (const Face& face : result.faces)
+    for (Index i = 0; i < degree(face); ++i) {
+      const std::pair<Index, Index> edge = std::minmax(result.node[face[i]], result.node[face[next_corner(face, i)]]);
+      if (const std::size_t k = place(edge); k < edges.size() && edges[k] == edge) ++sides[k];
+    }
+  const auto is_double = [&](const auto& edge) { return sides[place(edge)] > 2; };
+  const auto has_double = [&](const Reworked& work) {
+    const auto its = chords(work);
+    return std::any_of(its.begin(), its.end(), is_double);
+  };
+  return std::erase_if(pieces, has_double) > 0 ? replace_where_simple(mesh, std::move(pieces)) : result;
 }
 
 bool folds_onto_itself(const kernel::Mesh& mesh, const Piece& piece) {

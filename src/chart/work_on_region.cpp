@@ -321,7 +321,7 @@ class Worker {
         if (window.better) results.push_back(std::move(*window.better));
       }
       changed = changed || !results.empty();
-      mesh_ = replace(mesh_, results);
+      mesh_ = replace_where_simple(mesh_, std::move(results));
     }
     effort_.spent += budget.spent();
     return changed;

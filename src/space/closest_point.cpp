@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "space/closest_point.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -27,6 +28,13 @@ OnTriangle closest_on_sides(const Vector3d& p, const std::array<const Vector3d*,
   return best;
 }
 
+/// Weights of b and c for the foot on the plane, from the normal: in a needle the products of lengths by which
+/// closest_on_triangle() tells them otherwise are equal but for rounding.
+Eigen::Vector2d weights_in_needle(const Vector3d& ab, const Vector3d& ac, const Vector3d& ap) {
+  const Vector3d normal = ab.cross(ac);
+  return Eigen::Vector2d(normal.dot(ap.cross(ac)), normal.dot(ab.cross(ap))) / normal.squaredNorm();
+}
+
 }  // namespace
 
 double closest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
@@ -36,10 +44,15 @@ double closest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& 
 }
 
 OnTriangle closest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  constexpr double kNeedle2 = 1e-6;  // square of the sine at a
   const Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap), bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();
   // Inside if the foot on the plane has positive weights; their common divisor is the square of the doubled area.
-  const double at_b = cc * d1 - bc * d2, at_c = bb * d2 - bc * d1, area2 = bb * cc - bc * bc;
+  double at_b = cc * d1 - bc * d2, at_c = bb * d2 - bc * d1, area2 = bb * cc - bc * bc;
+  if (area2 < kNeedle2 * bb * cc) {
+    const Eigen::Vector2d weights = weights_in_needle(ab, ac, ap);
+    at_b = weights[0], at_c = weights[1], area2 = 1;
+  }
   if (at_b > 0 && at_c > 0 && at_b + at_c < area2) {
     const double v = at_b / area2, w = at_c / area2;
     const Vector3d point = a + v * ab + w * ac;

@@ -188,7 +188,7 @@ class Mender {
       pieces.push_back(std::make_unique<Piece>(mesh_, opposites(view), std::vector<bool>{}, faces));
       if (auto work = rework(view, *pieces.back(), faces)) done.push_back(std::move(*work));
     }
-    if (!done.empty()) mesh_ = chart::replace(mesh_, done);
+    if (!done.empty()) mesh_ = chart::replace_where_simple(mesh_, std::move(done));
     return true;
   }
 
@@ -215,7 +215,7 @@ class Mender {
     chart::Reworked work{&piece, piece.mesh(flat), {}};
     const bool is_good = untangle(work.mesh, options_);
     spent_ += work.mesh.work();
-    if (!is_good) return {};
+    if (!is_good || chart::folds_onto_itself(work.mesh, piece)) return {};
     work.lifted = lift(work.mesh, piece, flat, ground);
     if (count_bad(work) >= count_bad(view, faces)) return {};
     return work;

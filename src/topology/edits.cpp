@@ -18,13 +18,25 @@ Index remove_doublet(kernel::Mesh& mesh, Index v) {
   return mesh.make_face(ring, std::array{f, g});
 }
 
+namespace {
+
+/// Whether what remove_doublet() makes of the two faces is one: a triangle or more, without a side in it twice. Two
+/// faces that have a third side in common lie between two edges that join the same nodes.
+bool is_removable(const kernel::Mesh& mesh, Index v) {
+  const Index h = mesh.out(v), k = mesh.rotate_ccw(h);
+  const Index f = mesh.face(h), g = mesh.face(k);
+  if (f == g || mesh.degree(f) + mesh.degree(g) < 7) return false;
+  for (Index e = mesh.next(h); mesh.target(e) != v; e = mesh.next(e))
+    if (mesh.face(kernel::Mesh::twin(e)) == g) return false;
+  return true;
+}
+
+}  // namespace
+
 void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {  // grows
     const Index v = nodes[i];
-    if (!mesh.is_live_vertex(v) || !mesh.is_free(v) || mesh.valence(v) != 2) continue;
-    const Index h = mesh.out(v);
-    const Index f = mesh.face(h), g = mesh.face(mesh.rotate_ccw(h));
-    if (f == g || mesh.degree(f) + mesh.degree(g) < 7) continue;
+    if (!mesh.is_live_vertex(v) || !mesh.is_free(v) || mesh.valence(v) != 2 || !is_removable(mesh, v)) continue;
     const std::vector<Index> left = nodes_of(mesh, remove_doublet(mesh, v));
     nodes.insert(nodes.end(), left.begin(), left.end());
   }

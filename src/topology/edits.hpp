@@ -7,11 +7,12 @@
 namespace qmorph::topology {
 
 /// Removes an interior node with two neighbours; its two faces become one. Returns the face.
-/// Precondition: valence 2, not on the boundary, not fixed.
+/// Precondition: valence 2, not on the boundary, not fixed; the faces have no other side in common.
 Index remove_doublet(kernel::Mesh& mesh, Index v);
 
 /// Removes doublets among `nodes` and, as each removal can make another, among the nodes of the faces that
-/// result. In the end `nodes` holds, sorted, those that are left and the nodes of the new faces.
+/// result. In the end `nodes` holds, sorted, those that are left and the nodes of the new faces. A doublet whose faces
+/// have a third side in common stays: they would not become one.
 void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes);
 
 /// Shrinks a set of faces and puts a layer of quads around it, so that every node of the set is free to

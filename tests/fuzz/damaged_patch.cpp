@@ -207,10 +207,16 @@ std::optional<std::string> why_unsound(const Patch& patch) {
 }
 
 bool is_promised_nothing(const Patch& patch) {
+  constexpr double kSizes = 1e12;
   bool is_bad = false;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for_each_edge(sides_of(patch.triangles, patch.quads), [&](auto first, auto last) {
     is_bad = is_bad || last - first > 2 || (last - first == 2 && first[0].forward == first[1].forward);
+    const double length = (patch.points[first->high] - patch.points[first->low]).norm();
+    if (length > 0) shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
   });
+  is_bad = is_bad || longest > kSizes * shortest;
   const Vector3d normal = area_vector(patch.points, patch.triangles, {});
   double area = 0;
   for (const auto& t : patch.triangles) area += area_vector(patch.points, {t}, {}).norm();

@@ -21,7 +21,8 @@ Patch damaged_patch(std::span<const std::uint8_t> bytes);
 std::optional<std::string> why_unsound(const Patch& patch);
 
 /// Whether nothing is promised but an orderly end: for kept quads that are no good themselves, edges of more than two
-/// elements, and triangles that lie on each other's backs.
+/// elements, triangles that lie on each other's backs, and sizes so different that numbers of 16 digits do not hold the
+/// short edges beside the long ones.
 /// \pre it is sound
 bool is_promised_nothing(const Patch& patch);
 

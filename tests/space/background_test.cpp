@@ -51,6 +51,18 @@ TEST_CASE("closest point of a triangle: a corner is met to the bit") {
   CHECK(space::closest_on_triangle({-1, -1, 0}, a, b, c).point == a);
 }
 
+TEST_CASE("closest point of a triangle: in needles, as near as rounding allows") {
+  Rng rng(5);
+  for (const double height : {1e-2, 1e-4, 1e-6, 1e-8})
+    for (int round = 0; round < 50; ++round) {
+      const Vector3d a(0.1, 0.2, 0), b(1.3, 0.2, 0), c(rng.between(-1, 3), 0.2 + height, 0);
+      const double u = rng.between(0.1, 0.4), v = rng.between(0.1, 0.4), above = height * rng.between(0.5, 2);
+      const Vector3d under = a + u * (b - a) + v * (c - a), p = under + Vector3d(0, 0, above);
+      const auto foot = space::closest_on_triangle(p, a, b, c);
+      CHECK(std::abs(std::sqrt(foot.distance2) - above) < 1e-6 * above);
+    }
+}
+
 TEST_CASE("background: a walk from triangles nearby finds the closest point of all") {
   const Patch patch = torus({.across = 40, .along = 16, .jitter = 0.3});
   const Background surface(patch.points, patch.triangles);

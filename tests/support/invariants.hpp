@@ -20,7 +20,7 @@ namespace qmorph::test {
 ///   conformity   an edge with three elements or two on one side; a node or element twice; an unused node      (I3)
 ///   orientation  a corner that is not strictly convex, seen along the input's normal                          (I4)
 ///   parity       more than one triangle in a region, or one in an even region                                 (I5)
-///   area         not the input's to 1e-9; a node off the plane                                                (I6)
+///   area         not the input's to 1e-9; a node further off the plane than the input's are                   (I6)
 ///   surface      of a curved patch, instead of orientation and area: a node off the triangles; a corner that is turned
 ///                over, by their normals near it and by the element's mean normal; another Euler characteristic
 std::vector<std::string> broken_invariants(const Patch& in, const QuadMesh& out);

@@ -62,6 +62,19 @@ TEST_CASE("remove_doublets leaves what is not a doublet, or must stay") {
   CHECK_FALSE(unchanged(doublet(), {4}));
 }
 
+TEST_CASE("remove_doublets leaves two quads that have three sides in common") {
+  //  Between two edges that join 2 and 3: quads (2 3 7 6) and (3 2 6 7), 6 and 7 both with two neighbours.
+  Mesh mesh = quad_grid(1, 2);
+  std::vector<Index> nodes;
+  const Index path = topology::draw_path(mesh, 2, 3, {{0.3, 1}, {0.6, 1}}, nodes);
+  const Index back = mesh.degree(mesh.face(path)) == 6 ? path : Mesh::twin(mesh.next(mesh.next(path)));
+  mesh.split_face(back, mesh.next(mesh.next(mesh.next(back))));
+  const Snapshot before = snapshot(mesh);
+  topology::remove_doublets(mesh, nodes);
+  CHECK(snapshot(mesh) == before);
+  CHECK(nodes == std::vector<Index>{6, 7});
+}
+
 TEST_CASE("grow adds the faces that share a node, ring by ring") {
   const Mesh mesh = quad_grid(5, 5);
   const Index middle = mesh.face(edge(mesh, 14, 15));  // the cell in column 2, row 2
