@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -27,6 +28,8 @@ constexpr int kLookAt = 2;
 constexpr std::size_t kMostAlone = 16, kMostFirst = 10, kMostSecond = 6;
 constexpr int kLeastScore = -6;
 constexpr int kRings = 1;  ///< that are relaxed around a change
+/// Of a change that is made and taken back, for each face around it.
+constexpr std::size_t kWorkToTry = 3;
 
 /// Some elements' part in what the mesh is worth.
 struct Sum {
@@ -83,11 +86,17 @@ class Climbing {
     ++sum.count;
   }
 
+  int score_of(const std::vector<Index>& nodes) const {
+    int score = 0;
+    for (Index v : nodes)
+      if (mesh_.is_live_vertex(v)) score += score_.cost(v);
+    return score;
+  }
+
   Sum sum_of(const std::vector<Index>& faces, const std::vector<Index>& nodes) const {
     Sum sum;
     for (Index f : faces) add(f, sum);
-    for (Index v : nodes)
-      if (mesh_.is_live_vertex(v)) sum.score += score_.cost(v);
+    sum.score = score_of(nodes);
     mesh_.add_work(faces.size());
     return sum;
   }
@@ -103,12 +112,37 @@ class Climbing {
     return gain(before_, after) > kLeastGain && after.worst >= std::min(before_.worst, kPoor);
   }
 
+  /// A hash of which nodes make these faces. What two meshes have in common cancels in the difference of theirs.
+  std::uint64_t connectivity(const std::vector<Index>& faces) const {
+    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
+    std::uint64_t sum = 0;
+    for (Index f : faces)
+      for (Index h : mesh_.sides_of(f)) {
+        const std::uint64_t side = (std::uint64_t{mesh_.origin(h)} << 32 | mesh_.target(h)) * kOdd;
+        sum += (side ^ side >> 32) * kOdd;
+      }
+    return sum;
+  }
+
+  /// Whether a change is to be relaxed: it is if it might be better wherever nodes went, and no other has made the same
+  /// elements since something has changed.
+  bool has_chance(const std::vector<Index>& faces, const std::vector<Index>& around, const std::vector<Index>& nodes) {
+    mesh_.add_work(kWorkToTry * faces.size());
+    Sum ideal;
+    ideal.shape = double(faces.size()), ideal.count = faces.size();
+    ideal.worst = best_worth_around(mesh_, nodes).worst;
+    ideal.score = score_of(around);
+    return is_better(ideal) && relaxed_.insert(connectivity(faces) - connectivity_).second;
+  }
+
   void start_at(Index f) {
     near_.clear();
     for (Index g : topology::grow(mesh_, {f}, kNearRings))
       for (Index v : topology::nodes_of(mesh_, g)) near_.push_back(v);
     sort_unique(near_);
-    before_ = sum_of(topology::faces_around(mesh_, near_), near_);
+    const std::vector<Index> faces = topology::faces_around(mesh_, near_);
+    before_ = sum_of(faces, near_);
+    connectivity_ = connectivity(faces);
   }
 
   /// Whether this change, or these two, have not been tried since something has changed: several quads share a node.
@@ -152,7 +186,7 @@ class Climbing {
       const auto is_hopeful = [&](int pass) {
         return pass != kLookAt || gain(before_, sum_of(faces, around)) > -kMissing;
       };
-      kept = smoothing::smooth_near(mesh_, relaxing_, nodes, kRings, is_hopeful);
+      kept = has_chance(faces, around, nodes) && smoothing::smooth_near(mesh_, relaxing_, nodes, kRings, is_hopeful);
       if (kept) after = sum_of(faces, around), kept = is_better(after);
     }
     kept ? mesh_.commit() : mesh_.rollback();
@@ -161,7 +195,7 @@ class Climbing {
     all_.poor += after.poor - before_.poor;
     all_.count += after.count - before_.count;
     forgive(around);
-    tried_.clear();
+    tried_.clear(), relaxed_.clear();
     return true;
   }
 
@@ -175,10 +209,12 @@ class Climbing {
   Score score_;
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;
-  Sum all_, before_;         ///< of the whole mesh, and near the quad that is at hand
-  std::vector<Index> near_;  ///< nodes of what may change there
+  Sum all_, before_;                ///< of the whole mesh, and near the quad that is at hand
+  std::vector<Index> near_;         ///< nodes of what may change there
+  std::uint64_t connectivity_ = 0;  ///< near that quad
   std::set<Tried> tried_;
-  std::vector<bool> failed_;  ///< faces around which nothing has changed since nothing was found for them
+  std::set<std::uint64_t> relaxed_;  ///< changes of the connectivity that were
+  std::vector<bool> failed_;         ///< faces around which nothing has changed since nothing was found for them
   std::size_t changes_ = 0;
 };
 

@@ -55,8 +55,8 @@ constexpr std::size_t kWorkToGrade = 150;
 /// triangle if a corner is poor after these.
 constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;
 /// What changes to the best of them may cost for each triangle, and of what is allowed at most.
-constexpr std::size_t kWorkToClimb = 1000;
-constexpr double kShareToClimb = 0.15;
+constexpr std::size_t kWorkToClimb = 700;
+constexpr double kShareToClimb = 0.105;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 

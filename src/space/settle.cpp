@@ -15,7 +15,11 @@ constexpr double kNear = 0.01;
 /// Distances of the centres around a node that are less in all (edges): the surface is flat there.
 constexpr double kFlat = 1e-3;
 /// Sines of corners that one edge's distance of a centre is worth.
-constexpr double kShapeCost = 0.2;
+constexpr double kShapeCost = 0.19;
+/// With less to gain than this for each face around a node, on average, what can be gained is not worth the time.
+constexpr double kSettled = 0.01;
+/// How far off is what slopes say about the distances around a node, in all (edges).
+constexpr double kDoubt = 2e-4;
 constexpr double kRounding = 1e-9;  ///< of such sums
 
 class Settling {
@@ -41,6 +45,7 @@ class Settling {
   /// How a face sits on the surface.
   struct Seat {
     double distance = 0;                ///< of a quad's centre, in edges
+    double edge = 0;                    ///< length of a usual one; 0 if there is no distance
     Vector3d slope = Vector3d::Zero();  ///< how fast it grows when the centre moves
     double sine = 1;                    ///< the smallest one
     Index under = kNone;                ///< triangle under the centre
@@ -60,6 +65,7 @@ class Settling {
     const double edge = std::sqrt(0.5 * diagonal2), distance = std::sqrt(foot.distance2);
     if (!(edge > 0)) return seat;
     seat.distance = distance / edge;
+    seat.edge = edge;
     seat.slope = (centre - foot.point) / std::max(distance, kNear * edge);
     return seat;
   }
@@ -68,21 +74,20 @@ class Settling {
   struct Around {
     Vector3d slope = Vector3d::Zero();
     Vector3d ways = Vector3d::Zero();  ///< mean of those of the neighbours
-    double cost = 0, distance = 0;
+    double cost = 0, distance = 0, faces = 0;
     double least;     ///< sine of the worst face, or what is good enough
     double edge = 0;  ///< mean length
     Index side = kNone;
 
     bool is_left_alone() const {
       constexpr double kPoor = 0.3;  // left to those who look closer
-      return side == kNone || least < kPoor;
+      return side == kNone || least < kPoor || distance <= kFlat || cost + kShapeCost * faces <= kSettled * faces;
     }
   };
 
   Around around(Index v) const {
     Around sum;
     sum.least = options_.good_quality;
-    double count = 0;
     mesh_.for_sides_around(v, [&](Index side) {
       const Index other = mesh_.node(mesh_.next(side));
       const Seat& seat = seats_[side / 4];
@@ -93,9 +98,9 @@ class Settling {
       sum.ways += way_[other];
       sum.edge += (mesh_.point(other) - mesh_.point(v)).norm();
       sum.side = side;
-      ++count;
+      ++sum.faces;
     });
-    if (count > 0) sum.edge /= count, sum.ways /= count;
+    if (sum.faces > 0) sum.edge /= sum.faces, sum.ways /= sum.faces;
     return sum;
   }
 
@@ -105,20 +110,20 @@ class Settling {
     constexpr double kGain = 0.5, kMost = 0.5, kLeastWay = 0.02;  // edges
     is_active_[v] = 0;
     const Around here = around(v);
-    if (here.is_left_alone() || !(here.distance > kFlat)) return;
+    if (here.is_left_alone()) return;
     Vector3d way = 0.5 * (way_[v] + here.ways) - kGain * here.edge * here.slope;
     const Vector3d& up = mesh_.surface().normal(mesh_.mesh().on[v]);
     way -= way.dot(up) * up;
     const double length = way.norm(), most = kMost * here.edge;
     if (length > most) way *= most / length;
-    try_ways(v, way, kLeastWay * here.edge, here.cost, here.least);
+    try_ways(v, way, kLeastWay * here.edge, here);
   }
 
   /// Takes the first of four steps, along an edge and across, that is for the better: which way distances and shapes
   /// together get better no slope says.
   void look_around(Index v, double step) {
     const Around here = around(v);
-    if (here.is_left_alone() || !(here.distance > kFlat)) return;
+    if (here.is_left_alone()) return;
     const MeshOnSurface::Place before = mesh_.place(v);
     const Vector3d& up = mesh_.surface().normal(before.triangle);
     const Vector3d edge = mesh_.point(mesh_.node(mesh_.next(here.side))) - before.point;
@@ -126,7 +131,7 @@ class Settling {
     for (const Vector3d& way : {along, across, Vector3d(-along), Vector3d(-across)}) {
       mesh_.move(v, before);
       mesh_.move(v, mesh_.foot(v, before.point + step * here.edge * way));
-      if (!is_better(v, here.cost, here.least)) continue;
+      if (!is_better(v, before.point, here)) continue;
       auto seat = tried_.begin();
       mesh_.for_sides_around(v, [&](Index side) { seats_[side / 4] = *seat++; });
       return;
@@ -135,13 +140,13 @@ class Settling {
   }
 
   /// All of the way, or less of it. Steps that are shorter than `least_way` wake nobody.
-  void try_ways(Index v, const Vector3d& way, double least_way, double cost, double least) {
+  void try_ways(Index v, const Vector3d& way, double least_way, const Around& here) {
     const MeshOnSurface::Place before = mesh_.place(v);
     for (const double share : {1.0, 0.5, 0.25}) {
       const Vector3d tried = way_[v] + share * (way - way_[v]);
       mesh_.move(v, start_[v]);
       mesh_.move(v, mesh_.foot(v, start_[v].point + tried));
-      if (!is_better(v, cost, least)) continue;
+      if (!is_better(v, before.point, here)) continue;
       const bool is_far = (tried - way_[v]).norm() > least_way;
       way_[v] = tried;
       auto seat = tried_.begin();
@@ -156,25 +161,31 @@ class Settling {
     mesh_.move(v, before);
   }
 
-  bool is_better(Index v, double before, double least) {
+  /// Whether all is better with node v, which was at `from`, at its place; then tried_ has the seats of the faces.
+  bool is_better(Index v, const Vector3d& from, const Around& here) {
     tried_.clear();
-    double after = 0;
+    double after = 0, expected = 0;
     bool good = true;
-    mesh_.for_sides_around(v, [&](Index side) {  // shapes first, which takes less time
+    mesh_.for_sides_around(v, [&](Index side) {  // shapes and slopes first, which take less time
       if (!good) return;
-      Seat& seat = tried_.emplace_back();
-      seat.sine = mesh_.sure_sine(side / 4);
-      good = seat.sine >= least;
+      const Seat& seat = seats_[side / 4];
+      const double sine = mesh_.sure_sine(side / 4);
+      good = sine >= here.least;
+      if (seat.edge > 0)
+        expected += std::max(0.0, seat.distance + 0.25 * seat.slope.dot(mesh_.point(v) - from) / seat.edge);
+      expected -= kShapeCost * sine;
+      tried_.emplace_back().sine = sine;
     });
+    if (!good || expected >= here.cost + kDoubt) return false;
     auto seat = tried_.begin();
     mesh_.for_sides_around(v, [&](Index side) {
       if (!good) return;
       *seat = seat_of(side / 4, seat->sine, seats_[side / 4].under);
       after += seat++->cost();
       // Others lower the cost by their shapes at most.
-      good = after - kShapeCost * double(tried_.end() - seat) < before + kRounding;
+      good = after - kShapeCost * double(tried_.end() - seat) < here.cost + kRounding;
     });
-    return good && after < before;
+    return good && after < here.cost;
   }
 
   MeshOnSurface& mesh_;
