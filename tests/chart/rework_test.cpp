@@ -16,8 +16,11 @@ struct Example {
   Reworked work;
 
   explicit Example(const std::vector<Index>& rows)
-      : start(
-            {.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0.5}}, .triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}),
+      : start({.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0.5}},
+               .triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+               .quads = {},
+               .constraints = {},
+               .fixed = {}}),
         piece(start.mesh, start.opposite, {}, rows),
         work{&piece, {}, {piece.points, piece.on}} {
     std::vector<Vec2> flat;
