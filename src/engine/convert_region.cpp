@@ -58,9 +58,8 @@ constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoo
 /// What changes to the best of them may cost for each triangle, and of what is allowed at most.
 constexpr std::size_t kWorkToClimb = 1000;
 constexpr double kShareToClimb = 0.15;
-/// What a search for a better worst quad may cost however small the region is: a few milliseconds. With half of that it
-/// depends on chance whether something is found.
-constexpr double kWorkToLift = 400'000;
+/// What a search for a better worst quad may cost, for each triangle and at most: a few milliseconds.
+constexpr double kWorkToLift = 5000, kMostToLift = 400'000;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 
@@ -286,7 +285,8 @@ class RegionConverter {
   std::size_t lift_worst(kernel::Mesh& mesh) const {
     constexpr double kBoundaryIsPoor = 0.3;  // under that it nearly always is, and nothing was found
     constexpr std::size_t kFew = 150;        // triangles: in larger regions it costs much and brings little
-    const double allowed = std::min(kWorkToLift, allowed_ - double(cost_));
+    const double allowed =
+        std::min({kWorkToLift * double(region_.triangles.size()), kMostToLift, allowed_ - double(cost_)});
     if (allowed <= 0 || region_.triangles.size() > kFew || judge(mesh).least < kBoundaryIsPoor) return 0;
     const std::size_t changes = cleanup::lift_worst(mesh, options_.smoothing, {mesh, std::size_t(allowed)});
     if (changes > 0) smoothing::smooth(mesh, options_.smoothing);
