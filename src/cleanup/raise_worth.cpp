@@ -33,7 +33,7 @@ constexpr int kRings = 1;  ///< that are relaxed around a change
 /// so many of them is a row of quads around a quad.
 constexpr std::size_t kMostAtRandom = 5, kOneIsPillow = 6;
 constexpr int kLeastAtRandom = -12;
-/// What a climb may cost, how many rings are relaxed after it, by what the worst corner's sine has to grow, and how many
+/// What a climb may cost, how many rings are relaxed after it, by what the worst corner has to get better, and how many
 /// times as many elements are no drawback.
 constexpr std::size_t kWorkOfClimb = 20'000;
 constexpr int kRingsOfClimb = 3;
