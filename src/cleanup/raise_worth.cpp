@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -31,6 +32,16 @@ constexpr int kRings = 1;  ///< that are relaxed around a change
 /// Of a change that is made and taken back, for each face around it.
 constexpr std::size_t kWorkToTry = 3;
 
+/// Of a search: so many changes at random at most before each climb, what one may cost of the valence score, and one in
+/// so many of them is a row of quads around a quad.
+constexpr std::size_t kMostAtRandom = 5, kOneIsPillow = 6;
+constexpr int kLeastAtRandom = -12;
+/// What a climb may cost, how many rings are relaxed after it, by what the worst corner has to get better, and how many
+/// times as many elements are no drawback.
+constexpr std::size_t kWorkOfClimb = 20'000;
+constexpr int kRingsOfClimb = 3;
+constexpr double kLeastLift = 0.02, kFairGrowth = 1.2;
+
 /// Some elements' part in what the mesh is worth.
 struct Sum {
   double shape = 0, poor = 0, worst = 1;
@@ -46,21 +57,40 @@ class Climbing {
     relaxing_.untangling_sweeps = 8;
     for (Index f = 0; f < mesh_.face_slots(); ++f)
       if (mesh_.is_live_face(f)) add(f, all_);
+    for (Index v = 0; v < mesh_.vertex_slots(); ++v)
+      if (mesh_.is_live_vertex(v)) all_.score += score_.cost(v);
   }
 
   std::size_t run() {
+    climb([&] { failed_.assign(mesh_.face_slots(), false); });
+    return changes_;
+  }
+
+  /// The same, but it begins at the faces around these nodes only.
+  void run_near(const std::vector<Index>& nodes) {
+    climb([&] {
+      failed_.assign(mesh_.face_slots(), true);
+      forgive(nodes);
+    });
+  }
+
+  /// Of the whole mesh as it was at the beginning.
+  const Sum& all() const { return all_; }
+
+ private:
+  /// `start` says at which faces.
+  template <class Start>
+  void climb(const Start& start) {
     for (bool in_twos : {false, true}) {
-      failed_.assign(mesh_.face_slots(), false);
+      start();
       for (Index f = worst_place(); f != kNone && !budget_.is_spent(); f = worst_place())
         if (in_twos ? improve_by_two(f) : improve(f))
           ++changes_;
         else
           failed_[f] = true;
     }
-    return changes_;
   }
 
- private:
   /// One change or two: action and half-edges of each.
   using Tried = std::array<Index, 6>;
 
@@ -193,6 +223,7 @@ class Climbing {
     if (!kept) return false;
     all_.shape += after.shape - before_.shape;
     all_.poor += after.poor - before_.poor;
+    all_.score += after.score - before_.score;
     all_.count += after.count - before_.count;
     forgive(around);
     tried_.clear(), relaxed_.clear();
@@ -218,7 +249,126 @@ class Climbing {
   std::size_t changes_ = 0;
 };
 
+/// Changes at random around the worst quad, a climb from there, and back if that did not lift it.
+class Lift {
+ public:
+  Lift(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), smoothing_(smoothing), budget_(budget) {
+    const Sum start = measure(mesh_);
+    elements_ = start.count, worth_ = worth(start), worst_ = start.worst;
+  }
+
+  std::size_t run() {
+    std::size_t kept = 0;
+    while (worst_ < kPoor && !budget_.is_spent()) {
+      kernel::Mesh trial = mesh_;
+      trial.add_work(trial.face_slots());
+      if (const std::vector<Index> nodes = change_at_random(trial); !nodes.empty()) {
+        Climbing(trial, smoothing_, {trial, kWorkOfClimb}).run_near(nodes);
+        relax(trial, nodes);
+        if (accept(measure(trial))) {
+          mesh_ = std::move(trial);
+          ++kept;
+          continue;
+        }
+      }
+      mesh_.add_work(trial.work() - mesh_.work());
+    }
+    return kept;
+  }
+
+ private:
+  Sum measure(kernel::Mesh& mesh) const { return Climbing(mesh, smoothing_, budget_).all(); }
+
+  /// In quads as good as can be.
+  double worth(const Sum& sum) const {
+    const double n = double(elements_), count = double(sum.count);
+    return n * (sum.shape / count - std::max(0.0, count / n - kFairGrowth)) - kPriceOfPoor * sum.poor -
+           kPriceOfScore * sum.score;
+  }
+
+  bool accept(const Sum& found) {
+    if (worth(found) <= worth_ || found.worst < std::min(worst_ + kLeastLift, kPoor)) return false;
+    worth_ = worth(found), worst_ = found.worst;
+    return true;
+  }
+
+  /// One below `count`.
+  std::size_t any_of(std::size_t count) { return random_() % count; }
+
+  /// Nodes of the worst quad and of those around it.
+  static std::vector<Index> places(const kernel::Mesh& mesh) {
+    Index worst = kNone;
+    for (Index f = 0; f < mesh.face_slots(); ++f)
+      if (mesh.is_live_face(f) && mesh.is_quad(f) &&
+          (worst == kNone || mesh.smallest_sine(f) < mesh.smallest_sine(worst)))
+        worst = f;
+    std::vector<Index> nodes;
+    if (worst == kNone) return nodes;
+    for (Index f : topology::grow(mesh, {worst}, 1))
+      for (Index v : topology::nodes_of(mesh, f)) nodes.push_back(v);
+    sort_unique(nodes);
+    return nodes;
+  }
+
+  /// Some changes, each beside the one before. The nodes around them; none if nothing was possible.
+  std::vector<Index> change_at_random(kernel::Mesh& mesh) {
+    const Score score(mesh);
+    std::vector<Index> near = places(mesh), changed;
+    for (std::size_t left = 1 + any_of(kMostAtRandom); left > 0 && !near.empty(); --left) {
+      std::vector<Index> nodes;
+      mesh.begin();
+      bool kept = change(mesh, score, near[any_of(near.size())], nodes);
+      if (kept) {
+        topology::remove_doublets(mesh, nodes);
+        kept = smoothing::smooth_near(mesh, smoothing_, nodes, kRings);
+      }
+      kept ? mesh.commit() : mesh.rollback();
+      if (!kept) continue;
+      changed.insert(changed.end(), nodes.begin(), nodes.end());
+      keep_live(mesh, changed);
+      near = std::move(nodes);
+      keep_live(mesh, near);
+    }
+    return changed;
+  }
+
+  bool change(kernel::Mesh& mesh, const Score& score, Index v, std::vector<Index>& nodes) {
+    if (mesh.valence(v) > kMostValence) return false;
+    if (any_of(kOneIsPillow) == 0) {
+      const std::vector<Index> around = topology::faces_around(mesh, {v});
+      const Index quad = around[any_of(around.size())];
+      nodes = topology::nodes_of(mesh, quad);
+      return mesh.is_quad(quad) && topology::pillow(mesh, {quad}, nodes);
+    }
+    const std::vector<Candidate> candidates = candidates_around(mesh, score, v, kLeastAtRandom);
+    return !candidates.empty() && apply(mesh, candidates[any_of(candidates.size())], nodes);
+  }
+
+  void relax(kernel::Mesh& mesh, std::vector<Index> nodes) const {
+    keep_live(mesh, nodes);
+    mesh.begin();
+    smoothing::smooth_near(mesh, smoothing_, nodes, kRingsOfClimb) ? mesh.commit() : mesh.rollback();
+  }
+
+  static void keep_live(const kernel::Mesh& mesh, std::vector<Index>& nodes) {
+    std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
+    sort_unique(nodes);
+  }
+
+  kernel::Mesh& mesh_;
+  const SmoothingOptions& smoothing_;
+  const kernel::Budget& budget_;
+  std::size_t elements_ = 0;  ///< at the beginning
+  double worth_ = 0, worst_ = 1;
+  std::mt19937 random_;  // with the same seed each time
+};
+
 }  // namespace
+
+std::size_t lift_worst(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+  return Lift(mesh, smoothing, budget).run();
+}
 
 std::size_t raise_worth(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
   return Climbing(mesh, smoothing, budget).run();

@@ -15,4 +15,10 @@ namespace qmorph::cleanup {
 /// Cost: the budget; that is for small regions, where one change more or less is much of the result.
 std::size_t raise_worth(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget);
 
+/// Where the worst corner is still poor (a sine under 0.5): iterated local search [Lourenco03]. A few changes at random
+/// around the worst quad, raise_worth() around them, and back unless the worst corner is better and the whole worth
+/// more. The same mesh has always the same result. Parity and boundary stay. Returns how many times it was lifted.
+/// Cost: the budget, all of it if a corner stays poor.
+std::size_t lift_worst(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget);
+
 }  // namespace qmorph::cleanup

@@ -18,6 +18,7 @@
 #include "engine/worth.hpp"
 #include "qmorph/error.hpp"
 #include "smoothing/corner_energy.hpp"
+#include "smoothing/smooth.hpp"
 
 namespace qmorph {
 namespace {
@@ -57,6 +58,8 @@ constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoo
 /// What changes to the best of them may cost for each triangle, and of what is allowed at most.
 constexpr std::size_t kWorkToClimb = 700;
 constexpr double kShareToClimb = 0.105;
+/// What a search for a better worst quad may cost, for each triangle and at most: a few milliseconds.
+constexpr double kWorkToLift = 5000, kMostToLift = 400'000;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 
@@ -265,7 +268,8 @@ class RegionConverter {
     if (best.fault || to_climb_ <= 0) return;
     const std::size_t spent = best.mesh.work();
     kernel::Mesh mesh = best.mesh;
-    const std::size_t changes = cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(to_climb_)});
+    const std::size_t changes =
+        cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(to_climb_)}) + lift_worst(mesh);
     cost_ += mesh.work() - spent;
     best.mesh.add_work(mesh.work() - spent);
     if (changes == 0) return;
@@ -275,6 +279,18 @@ class RegionConverter {
     if (find_fault(mesh, region_, plane_)) return;
     best.mesh = std::move(mesh);
     if (wants_stages(best.options)) best.record.stages[std::size_t(Stage::repair)] = best.mesh;
+  }
+
+  /// A search around the worst quad, where that may help. Returns the number of changes.
+  std::size_t lift_worst(kernel::Mesh& mesh) const {
+    constexpr double kBoundaryIsPoor = 0.3;  // under that it nearly always is, and nothing was found
+    constexpr std::size_t kFew = 150;        // triangles: in larger regions it costs much and brings little
+    const double allowed =
+        std::min({kWorkToLift * double(region_.triangles.size()), kMostToLift, allowed_ - double(cost_)});
+    if (allowed <= 0 || region_.triangles.size() > kFew || judge(mesh).least < kBoundaryIsPoor) return 0;
+    const std::size_t changes = cleanup::lift_worst(mesh, options_.smoothing, {mesh, std::size_t(allowed)});
+    if (changes > 0) smoothing::smooth(mesh, options_.smoothing);
+    return changes;
   }
 
   bool is_good(const Worth& worth) const {

@@ -43,6 +43,29 @@ TEST_CASE("raise_worth: shapes get better on the whole, and no corner poor that 
   CHECK(after > before + 0.05);
 }
 
+TEST_CASE("lift_worst: the worst corner gets better or nothing changes, always in the same way; the boundary stays") {
+  constexpr int kGrids = 12;
+  constexpr std::size_t kWork = 60'000;
+  int lifted = 0;
+  for (int seed = 1; seed <= kGrids; ++seed) {
+    Rng rng(seed);
+    Mesh mesh = spoilt_grid(rng);
+    Mesh again = mesh;
+    const Edges boundary = boundary_of(mesh);
+    const double worst = topology::smallest_sine(mesh);
+    const std::size_t changes = cleanup::lift_worst(mesh, {}, {mesh, kWork});
+    CAPTURE(seed);
+    CHECK(cleanup::lift_worst(again, {}, {again, kWork}) == changes);
+    CHECK(faces_of(again) == faces_of(mesh));
+    CHECK((changes > 0 ? topology::smallest_sine(mesh) > worst : topology::smallest_sine(mesh) == worst));
+    CHECK(defect(mesh) == "");
+    CHECK(boundary_of(mesh) == boundary);
+    CHECK(count_quads(mesh) == count(mesh).faces);
+    lifted += changes > 0;
+  }
+  CHECK(lifted > 0);
+}
+
 TEST_CASE("raise_worth: a grid of squares stays") {
   Mesh mesh = quad_grid(5, 4);
   const Polygons faces = faces_of(mesh);
