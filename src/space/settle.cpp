@@ -175,15 +175,14 @@ class Settling {
         expected += std::max(0.0, seat.distance + 0.25 * seat.slope.dot(mesh_.point(v) - from) / seat.edge);
       expected -= kShapeCost * sine;
       tried_.emplace_back().sine = sine;
-      // Others lower the cost by their shapes at most.
-      good = good && expected - kShapeCost * (here.faces - double(tried_.size())) < here.cost + kDoubt;
     });
-    if (!good) return false;
+    if (!good || expected >= here.cost + kDoubt) return false;
     auto seat = tried_.begin();
     mesh_.for_sides_around(v, [&](Index side) {
       if (!good) return;
       *seat = seat_of(side / 4, seat->sine, seats_[side / 4].under);
       after += seat++->cost();
+      // Others lower the cost by their shapes at most.
       good = after - kShapeCost * double(tried_.end() - seat) < here.cost + kRounding;
     });
     return good && after < here.cost;
