@@ -142,18 +142,6 @@ class Climbing {
     return gain(before_, after) > kLeastGain && after.worst >= std::min(before_.worst, kPoor);
   }
 
-  /// A hash of which nodes make these faces. What two meshes have in common cancels in the difference of theirs.
-  std::uint64_t connectivity(const std::vector<Index>& faces) const {
-    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
-    std::uint64_t sum = 0;
-    for (Index f : faces)
-      for (Index h : mesh_.sides_of(f)) {
-        const std::uint64_t side = (std::uint64_t{mesh_.origin(h)} << 32 | mesh_.target(h)) * kOdd;
-        sum += (side ^ side >> 32) * kOdd;
-      }
-    return sum;
-  }
-
   /// Whether a change is to be relaxed: it is if it might be better wherever nodes went, and no other has made the same
   /// elements since something has changed.
   bool has_chance(const std::vector<Index>& faces, const std::vector<Index>& around, const std::vector<Index>& nodes) {
@@ -162,7 +150,7 @@ class Climbing {
     ideal.shape = double(faces.size()), ideal.count = faces.size();
     ideal.worst = best_worth_around(mesh_, nodes).worst;
     ideal.score = score_of(around);
-    return is_better(ideal) && relaxed_.insert(connectivity(faces) - connectivity_).second;
+    return is_better(ideal) && relaxed_.insert(topology::connectivity(mesh_, faces) - connectivity_).second;
   }
 
   void start_at(Index f) {
@@ -172,7 +160,7 @@ class Climbing {
     sort_unique(near_);
     const std::vector<Index> faces = topology::faces_around(mesh_, near_);
     before_ = sum_of(faces, near_);
-    connectivity_ = connectivity(faces);
+    connectivity_ = topology::connectivity(mesh_, faces);
   }
 
   /// Whether this change, or these two, have not been tried since something has changed: several quads share a node.

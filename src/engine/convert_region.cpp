@@ -19,6 +19,7 @@
 #include "qmorph/error.hpp"
 #include "smoothing/corner_energy.hpp"
 #include "smoothing/smooth.hpp"
+#include "topology/edits.hpp"
 
 namespace qmorph {
 namespace {
@@ -45,7 +46,7 @@ bool may_try_again(std::size_t triangles, const Options& options) { return trian
 /// What a front has decided and made.
 struct Front {
   front::Decisions decisions;
-  std::uint64_t fingerprint;  ///< of what it has made
+  std::uint64_t connectivity;  ///< of what it has made
 };
 
 /// What an attempt costs however small the region is.
@@ -347,11 +348,12 @@ class RegionConverter {
     return result;
   }
 
-  /// Notes the front, of which `mesh` came, and whether another has made the same.
+  /// Notes the front, of which `mesh` came, and whether another has made the same elements; where it has put their nodes
+  /// makes hardly a difference to what comes of them.
   bool is_repeated(Front& front, const kernel::Mesh& mesh) {
-    front.fingerprint = mesh.fingerprint();
+    front.connectivity = topology::connectivity(mesh);
     const bool is_repeated = std::any_of(fronts_.begin(), fronts_.end(),
-                                         [&](const Front& other) { return other.fingerprint == front.fingerprint; });
+                                         [&](const Front& other) { return other.connectivity == front.connectivity; });
     fronts_.push_back(front);
     return is_repeated;
   }

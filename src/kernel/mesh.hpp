@@ -126,9 +126,6 @@ class Mesh {
   static constexpr Index kManyEdges = 64;
   /// Of all vertices, by vertex; 0 for dead ones.
   std::vector<Index> valences() const;
-  /// A hash: the same for meshes that agree bit by bit, dead elements included, so that the same edits have the same
-  /// result; for other meshes nearly always another. Linear.
-  std::uint64_t fingerprint() const;
   /// The half-edge from a to b, or kNone. O(valence).
   HalfEdgeId find(AnyNode a, AnyNode b) const;
 

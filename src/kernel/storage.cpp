@@ -2,7 +2,6 @@
 /// Slots and transactions of the half-edge mesh. Slots of dead elements are used again, last first; a
 /// transaction keeps the old value of everything it touches, so that a rollback restores every bit,
 /// the free lists included.
-#include <bit>
 #include <cassert>
 
 #include "kernel/mesh.hpp"
@@ -123,25 +122,6 @@ void Mesh::rollback() {
   rollback_pool(edge_pool_, half_edges_);
   rollback_pool(vertex_pool_, vertices_);
   rollback_pool(face_pool_, faces_);
-}
-
-std::uint64_t Mesh::fingerprint() const {
-  std::uint64_t sum = 0;
-  const auto add = [&](std::uint64_t value) {
-    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
-    sum = (sum ^ value) * kOdd;
-    sum ^= sum >> 32;
-  };
-  const auto pair = [](Index a, Index b) { return std::uint64_t{a} << 32 | b; };
-  for (const HalfEdge& h : half_edges_) add(pair(h.origin, h.next)), add(pair(h.prev, h.face));
-  for (const Vertex& v : vertices_) {
-    add(std::bit_cast<std::uint64_t>(v.point.x())), add(std::bit_cast<std::uint64_t>(v.point.y()));
-    add(pair(v.out, v.fixed));
-  }
-  for (const Face& f : faces_) add(pair(f.half_edge, f.degree));
-  for (const std::vector<Index>* free : {&edge_pool_.free, &vertex_pool_.free, &face_pool_.free})
-    for (const Index i : *free) add(i);
-  return sum;
 }
 
 }  // namespace qmorph::kernel

@@ -58,6 +58,20 @@ std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
   return nodes;
 }
 
+namespace {
+
+std::uint64_t hash_of_nodes(const kernel::Mesh& mesh, Index f) {
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
+  std::uint64_t sum = 0;
+  for (Index h : mesh.sides_of(f)) {
+    const std::uint64_t side = (std::uint64_t{mesh.origin(h)} << 32 | mesh.target(h)) * kOdd;
+    sum += (side ^ side >> 32) * kOdd;
+  }
+  return sum;
+}
+
+}  // namespace
+
 std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes) {
   std::vector<Index> faces;
   faces.reserve(5 * nodes.size());
@@ -68,6 +82,19 @@ std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Inde
   }
   sort_unique(faces);
   return faces;
+}
+
+std::uint64_t connectivity(const kernel::Mesh& mesh, const std::vector<Index>& faces) {
+  std::uint64_t sum = 0;
+  for (Index f : faces) sum += hash_of_nodes(mesh, f);
+  return sum;
+}
+
+std::uint64_t connectivity(const kernel::Mesh& mesh) {
+  std::uint64_t sum = 0;
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (mesh.is_live_face(f)) sum += hash_of_nodes(mesh, f);
+  return sum;
 }
 
 std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int rings) {

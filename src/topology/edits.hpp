@@ -2,6 +2,8 @@
 #pragma once
 /// Edits of a quad mesh that several stages use; each is made of the kernel's.
 
+#include <cstdint>
+
 #include "kernel/mesh.hpp"
 
 namespace qmorph::topology {
@@ -31,6 +33,12 @@ std::vector<Index> grow(const kernel::Mesh& mesh, std::vector<Index> faces, int 
 
 /// The faces around some nodes, sorted. Dead nodes have none.
 std::vector<Index> faces_around(const kernel::Mesh& mesh, const std::vector<Index>& nodes);
+
+/// A hash of which nodes make these faces, and in which sense, whatever the order of the faces: equal for equal ones,
+/// for others nearly always another. It is a sum over faces, so what two sets have in common cancels in the difference.
+std::uint64_t connectivity(const kernel::Mesh& mesh, const std::vector<Index>& faces);
+/// Of all faces.
+std::uint64_t connectivity(const kernel::Mesh& mesh);
 
 /// Mean of the nodes that edges join v with.
 Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v);

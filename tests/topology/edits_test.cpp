@@ -129,3 +129,18 @@ TEST_CASE("pillow refuses an outline that touches itself, and then changes nothi
   CHECK(snapshot(mesh) == before);
   CHECK(nodes.empty());
 }
+
+TEST_CASE("connectivity: which nodes make the faces, in any order, and nothing else") {
+  const std::vector<Vec2> points{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
+  const auto of = [&](const Polygons& faces) { return topology::connectivity(drawn(points, faces)); };
+  CHECK(of({{0, 1, 4, 5}, {1, 2, 3, 4}}) == of({{2, 3, 4, 1}, {4, 5, 0, 1}}));
+  CHECK(of({{0, 1, 4, 5}, {1, 2, 3, 4}}) != of({{0, 1, 2, 5}, {2, 3, 4, 5}}));
+  const Mesh both = drawn(points, {{0, 1, 4, 5}, {1, 2, 3, 4}});
+  std::uint64_t sum = 0;
+  for (Index f = 0; f < both.face_slots(); ++f)
+    if (both.is_live_face(f)) sum += topology::connectivity(both, {f});
+  CHECK(sum == topology::connectivity(both));
+  Mesh moved = both;
+  moved.set_point(4, {1.1, 1});
+  CHECK(topology::connectivity(moved) == topology::connectivity(both));
+}
