@@ -78,6 +78,15 @@ TEST_CASE("messages: quads whose order changes are not as they were") {
   CHECK(!mentions(result.err, "as it was"));
 }
 
+TEST_CASE("messages: of a word in a script that Gmsh does not know, which version does not know it") {
+  const TemporaryDirectory directory;
+  write_file(directory / "field.geo", "Field[1] = Tomorrow;\n");
+  const Result result = run_qmorph({directory / "field.geo", "-o", directory / "out.msh"});
+  CHECK(result.status == 2);
+  CHECK(mentions(result.err, "Tomorrow"));
+  CHECK(mentions(result.err, "(this is Gmsh 4."));
+}
+
 TEST_CASE("messages: what Gmsh says again and again is reported once") {
   qmorph::adapter::StageLog log;
   log.errors = {"no convergence", "no convergence", "a hole", "no convergence", "a leak"};

@@ -100,6 +100,28 @@ TEST_CASE("divide: the two sides of a thin ring get equally many segments, where
   }
 }
 
+TEST_CASE("divide: a frame whose sides have as many segments as rows that turn in its corners ask for keeps them") {
+  struct Frame {
+    double thickness, size;
+    std::size_t outer, inner;
+  };
+  for (const Frame& frame : {Frame{0.1, 0.1, 10, 8}, Frame{0.13, 0.06, 17, 13}, Frame{0.05, 0.04, 25, 23}}) {
+    CAPTURE(frame.thickness);
+    CAPTURE(frame.size);
+    std::string script;
+    int corner = 0;
+    for (const double from : {0.0, frame.thickness})
+      for (const auto& [x, y] : {std::pair{from, from}, {1 - from, from}, {1 - from, 1 - from}, {from, 1 - from}})
+        script += fmt::format("Point({}) = {{{}, {}, 0, {}}};\n", ++corner, x, y, frame.size);
+    for (int k = 0; k < 8; ++k)
+      script += fmt::format("Line({}) = {{{}, {}}};\n", k + 1, k + 1, k / 4 * 4 + (k + 1) % 4 + 1);
+    script += "Curve Loop(1) = {1:4};\nCurve Loop(2) = {5:8};\nPlane Surface(1) = {1, 2};\n";
+    const auto [after, worst] = convert(script);
+    for (int k = 1; k <= 8; ++k) CHECK(segments(after, k) == (k <= 4 ? frame.outer : frame.inner));
+    CHECK(worst > 0.9);
+  }
+}
+
 TEST_CASE("divide: ribs on a plate have no triangle and no poor quad") {
   Rng rng(2);
   for (int trial = 0; trial < 6; ++trial) {

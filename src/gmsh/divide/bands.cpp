@@ -43,12 +43,13 @@ class BandFinder {
   void add_pinched_ring(const std::vector<Index>& boundary);
   bool add_strip(const Chain& loop);
   void add_four_sides(const Chain& loop);
-  void add_ring(const Chain& a, const Chain& b);
+  bool add_ring(const Chain& a, const Chain& b);
   void add_pairs(const std::vector<Index>& boundary);
   bool face_from_end_to_end(Index a, Index b) const;
   std::vector<Band> in_pieces(const Chain& a, const Chain& b) const;
   void add(const Chain& a, const Chain& b) { bands_.push_back(band(a, b)); }
   Band band(const Chain& a, const Chain& b) const;
+  bool is_side_of_frame(const Band& band) const;
 
   const CurveModel& model_;
   Index surface_ = kNone;
@@ -222,8 +223,44 @@ void BandFinder::add_four_sides(const Chain& loop) {
   }
 }
 
-void BandFinder::add_ring(const Chain& a, const Chain& b) {
-  if (!face(a, b)) return;
+/// The distance between the ends of straight curves in a row, or 0 if they are not straight.
+double straight_length(const CurveModel& model, const std::vector<Index>& side) {
+  constexpr double kStraight = 1e-6;
+  double length = 0, farthest = 0;
+  for (Index c : side) {
+    length += model.curves[c].length;
+    for (Index d : side)
+      for (const Vector3d& p : {model.curves[c].points.front(), model.curves[c].points.back()})
+        for (const Vector3d& q : {model.curves[d].points.front(), model.curves[d].points.back()})
+          farthest = std::max(farthest, (p - q).norm());
+  }
+  return farthest >= (1 - kStraight) * length ? farthest : 0;
+}
+
+/// True of a straight side of a ring between right-angled corners, where the outer curves are longer by the thickness at
+/// each end, if they also have a segment more for each row there: rows turn in a square of quads then. Along a mitre,
+/// which equal numbers would give them, quads are poorer. A ring much thinner than its size has no room for squares.
+bool BandFinder::is_side_of_frame(const Band& band) const {
+  constexpr double kSlack = 0.05;     // of the thickness
+  constexpr double kThinnest = 0.75;  // sizes
+  const double one = straight_length(model_, band.one), other = straight_length(model_, band.other);
+  if (one == 0 || other == 0) return false;
+  const std::vector<Index>&outer = one > other ? band.one : band.other, &inner = one > other ? band.other : band.one;
+  const auto segments_of = [&](const std::vector<Index>& side) {
+    int sum = 0;
+    for (Index c : side) sum += curve(c).segments;
+    return sum;
+  };
+  const Vector3d from = curve(inner.front()).points.front(), to = curve(inner.front()).points.back();
+  const Vector3d along = (to - from).normalized(), across = curve(outer.front()).points.front() - from;
+  const double thickness = (across - across.dot(along) * along).norm();
+  const double in_sizes = thickness * (segments_of(outer) + segments_of(inner)) / (one + other);
+  return in_sizes >= kThinnest && std::abs(std::abs(one - other) - 2 * thickness) <= kSlack * thickness &&
+         segments_of(outer) - segments_of(inner) == 2 * int(std::round(in_sizes));
+}
+
+bool BandFinder::add_ring(const Chain& a, const Chain& b) {
+  if (!face(a, b)) return false;
   // Two points across from each other are where both begin; which way the other runs shows at the next ones.
   std::vector<Band> best = {band(a, b)};
   const std::vector<Vector3d> across = points(b);
@@ -239,7 +276,9 @@ void BandFinder::add_ring(const Chain& a, const Chain& b) {
     for (const Chain& other : {forward, reversed(forward)})
       if (std::vector<Band> pieces = in_pieces(from_a, other); pieces.size() > best.size()) best = std::move(pieces);
   }
-  for (Band& piece : best) bands_.push_back(std::move(piece));
+  for (Band& piece : best)
+    if (!is_side_of_frame(piece)) bands_.push_back(std::move(piece));
+  return true;
 }
 
 bool BandFinder::face_from_end_to_end(Index a, Index b) const {
@@ -279,7 +318,7 @@ void BandFinder::look_at(Index surface) {
   std::erase_if(boundary, [&](Index c) { return curve(c).segments == 0; });
   const std::vector<Chain> loops = loops_of(model_, boundary);
   const std::size_t before = bands_.size();
-  if (loops.size() == 2) add_ring(loops[0], loops[1]);
+  if (loops.size() == 2 && add_ring(loops[0], loops[1])) return;
   if (loops.size() == 1 && !add_crescent(loops[0]) && !add_strip(loops[0])) add_four_sides(loops[0]);
   if (loops.empty()) add_pinched_ring(boundary);
   if (bands_.size() > before) return;

@@ -143,6 +143,15 @@ void check_not_empty(const std::string& path) {
         fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
 }
 
+/// What Gmsh says. Words that it does not know are often those of another version, as names of fields are.
+std::string why_not_opened(const StageLog& log) {
+  const std::string said = first_errors(log);
+  if (said.find("Unknown ") == std::string::npos) return said;
+  std::string version;
+  ::gmsh::option::getString("General.Version", version);
+  return fmt::format("{} (this is Gmsh {})", said, version);
+}
+
 /// What -bgm does in Gmsh's own command.
 void set_background(const std::string& path) {
   check_readable(path);
@@ -169,7 +178,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
 
   auto start = std::chrono::steady_clock::now();
   const StageLog log = opened.msh.is_2() ? open_msh2(path, opened.msh.binary, opened.origin) : open_file(path);
-  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, first_errors(log)));
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, why_not_opened(log)));
   std::vector<ViewStep> merged_data;
   for (const std::string& file : options.merged) {
     const std::vector<ViewStep> data = merge_file(file);
