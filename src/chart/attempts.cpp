@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/attempts.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -21,18 +20,6 @@ std::vector<Options> with_other_fronts(const Options& asked) {
   return variants;
 }
 
-double smallest_sine(const SurfaceMesh& mesh, const Face& face) {
-  double least = 1;
-  for (Index i = 0; i < degree(face); ++i) {
-    const Eigen::Vector3d& at = mesh.points[face[i]];
-    const Eigen::Vector3d ahead = mesh.points[face[next_corner(face, i)]] - at;
-    const Eigen::Vector3d behind = mesh.points[face[i == 0 ? degree(face) - 1 : i - 1]] - at;
-    const double lengths = ahead.norm() * behind.norm();
-    least = std::min(least, lengths > 0 ? ahead.cross(behind).norm() / lengths : 0);
-  }
-  return least;
-}
-
 struct Worth {
   double irregular = 0;  ///< irregular nodes a face
   double sum = 0;        ///< regular nodes count for more than good shapes, and both for more than one poor element
@@ -43,7 +30,7 @@ struct Worth {
     irregular = double(std::count(is_irregular.begin(), is_irregular.end(), 1)) / faces;
     double least = 1, mean = 0;
     for (const Face& face : mesh.faces) {
-      const double sine = smallest_sine(mesh, face);
+      const double sine = own_sine(mesh, face);
       if (degree(face) == 4) least = std::min(least, sine);
       mean += sine / faces;
     }

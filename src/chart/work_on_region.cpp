@@ -12,6 +12,7 @@
 #include "chart/pair_up.hpp"
 #include "chart/refine.hpp"
 #include "chart/topology.hpp"
+#include "chart/widen_tips.hpp"
 #include "chart/window_work.hpp"
 #include "chart/windows.hpp"
 #include "engine/allowance.hpp"
@@ -132,6 +133,23 @@ class Worker {
   bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
 
   bool improve() {
+    SurfaceMesh widened = mesh_;
+    const bool has_wider_tips = task_ == Task::convert && widen_tips(widened, creases_, background()) > 0;
+    const bool is_valid = improve_as_it_is();
+    if (!has_wider_tips) return is_valid;
+    SurfaceMesh narrow = std::exchange(mesh_, std::move(widened));
+    space::Faults faults = faults_;
+    const std::size_t spent = effort_.spent;
+    const bool is_wider_valid = improve_as_it_is();
+    effort_.spent = spent;  // at most what improve() costs anyway: tries of other fronts need not pay for it
+    if (is_wider_valid &&
+        (!is_valid || (doubtful() <= faults.doubtful.size() && smallest_own_sine(mesh_) > smallest_own_sine(narrow))))
+      return true;
+    mesh_ = std::move(narrow), faults_ = std::move(faults);
+    return is_valid;
+  }
+
+  bool improve_as_it_is() {
     faults_ = space::improve(mesh_, creases_, region_, stretched_, options_.smoothing);
     effort_.spent += faults_.work;
     return !find_fault();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "chart/fixture.hpp"
+#include "chart/widen_tips.hpp"
 #include "chart/work_on_region.hpp"
 #include "engine/allowance.hpp"
 #include "qmorph/convert.hpp"
@@ -259,4 +260,41 @@ TEST_CASE("curved: what has no two sides is refused by name") {
       patch.triangles.push_back({node(k, side), node(k + 1, side + 1), node(k, side + 1)});
     }
   CHECK_THROWS_AS(convert(patch), SurfaceError);
+}
+
+TEST_CASE("curved: a tip of a cone that two quads surround gets a third") {
+  // Two quads around node 0, and two rings of quads around them.
+  chart::SurfaceMesh mesh;
+  const Patch patch = cone(4, 6, 3);
+  const Start start(patch);
+  const auto add = [&](double r, double angle) {
+    return mesh.add_point({r * std::cos(angle), r * std::sin(angle), -3 * r}, Index(0));
+  };
+  const Index tip = add(0, 0);
+  mesh.fixed[tip] = 1;
+  std::vector<Index> rings[3];
+  for (int ring = 0; ring < 3; ++ring)
+    for (int k = 0; k < 4; ++k) rings[ring].push_back(add(1 + ring, std::numbers::pi / 2 * k));
+  mesh.faces.push_back({tip, rings[0][0], rings[0][1], rings[0][2]});
+  mesh.faces.push_back({tip, rings[0][2], rings[0][3], rings[0][0]});
+  for (int ring = 0; ring < 2; ++ring)
+    for (int k = 0; k < 4; ++k)
+      mesh.faces.push_back(
+          {rings[ring][k], rings[ring + 1][k], rings[ring + 1][(k + 1) % 4], rings[ring][(k + 1) % 4]});
+  mesh.near.assign(mesh.faces.size(), 0);
+  mesh.open.assign(4 * mesh.faces.size(), false);
+  for (int k = 0; k < 4; ++k) mesh.open[4 * (6 + k) + 1] = true;
+  const auto at_tip = [&] {
+    return std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                         [&](const chart::Face& f) { return std::count(f.begin(), f.end(), tip) > 0; });
+  };
+  REQUIRE(at_tip() == 2);
+  CHECK(chart::widen_tips(mesh, {}, *start.region.background) == 1);
+  CHECK(at_tip() == 3);
+  CHECK(mesh.faces.size() == 11);
+  std::size_t open = 0;
+  for (Index other : chart::opposite_sides(mesh)) open += other == kNone;
+  CHECK(open == 4);
+  // All three fan out now.
+  CHECK(chart::widen_tips(mesh, {}, *start.region.background) == 0);
 }
