@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/run.hpp"
 
+#include <cxxabi.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string_view>
+#include <typeinfo>
 
 #include "cli/gui/gui.hpp"
 #include "cli/messages/error_stream.hpp"
@@ -72,6 +75,16 @@ int run_request(const std::vector<std::string>& arguments, std::ostream& out, Er
   return status;
 }
 
+/// "Standard_ConstructionError", say. Call it while an exception is being handled.
+std::string name_of_current_exception() {
+  const std::type_info* type = abi::__cxa_current_exception_type();
+  if (!type) return "an exception of another language";
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> name(abi::__cxa_demangle(type->name(), nullptr, nullptr, &status),
+                                                         &std::free);
+  return name ? name.get() : type->name();
+}
+
 }  // namespace
 
 int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err_stream,
@@ -96,7 +109,11 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
   } catch (const std::string& error) {  // Gmsh before 4.10
     return fail(bad_input, fmt::format("Gmsh: {}", error), err);
   } catch (...) {
-    return fail(bad_input, "a mistake of qmorph", err);
+    // We throw nothing else, but OpenCASCADE does, and Gmsh lets it through.
+    return fail(bad_input,
+                fmt::format("Gmsh cannot work on this geometry ({}); repair it, or try another version of Gmsh",
+                            name_of_current_exception()),
+                err);
   }
 }
 
