@@ -70,6 +70,8 @@ class Widening {
       if (cost(k) < cost(best)) best = k;
     const Index tip = node(side), middle = node(spokes[0]), far = node(next(spokes[best]));
     const Index second = mesh_.add_point(mesh_.points[middle], mesh_.on[middle]);
+    stays_.push_back(0);
+    valence_.push_back(Index(spokes.size() - best) + 1);
     std::vector<Index> first_ends, second_ends;
     for (std::size_t k = 0; k + 1 < spokes.size(); ++k)
       if (k != best) (k < best ? first_ends : second_ends).push_back(node(next(spokes[k])));
