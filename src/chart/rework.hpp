@@ -15,8 +15,8 @@ struct Reworked {
 /// numbers; some are used by no face any more.
 SurfaceMesh replace(const SurfaceMesh& mesh, const std::vector<Reworked>& pieces);
 
-/// The same without the pieces in which an edge from rim to rim joins two nodes that another edge joins outside: they stay
-/// as they are. Cost: linear.
+/// The same without the pieces in which an edge from rim to rim joins two nodes that another edge joins outside: they
+/// stay as they are. Cost: linear.
 SurfaceMesh replace_where_simple(const SurfaceMesh& mesh, std::vector<Reworked> pieces);
 
 /// Where the piece ends on both sides of a line, one node has two points there. An element may have got both, or two

@@ -348,8 +348,8 @@ class RegionConverter {
     return result;
   }
 
-  /// Notes the front, of which `mesh` came, and whether another has made the same elements; where it has put their nodes
-  /// makes hardly a difference to what comes of them.
+  /// Notes the front, of which `mesh` came, and whether another has made the same elements; where it has put their
+  /// nodes makes hardly a difference to what comes of them.
   bool is_repeated(Front& front, const kernel::Mesh& mesh) {
     front.connectivity = topology::connectivity(mesh);
     const bool is_repeated = std::any_of(fronts_.begin(), fronts_.end(),

@@ -30,8 +30,8 @@ class Cells {
   /// Whether there is a cell below or above, on the same face of the model.
   bool has_neighbour_in_pile(const Cell& cell) const;
   /// How many cells share lateral sides in a row with this one: all of them if the row is closed or ends at walls, and
-  /// then `most`. No more than that are counted, and none that was taken before the cell `first`. In a pile, sharp edges
-  /// are walls: a row of one cell may go from rim to rim.
+  /// then `most`. No more than that are counted, and none that was taken before the cell `first`. In a pile, sharp
+  /// edges are walls: a row of one cell may go from rim to rim.
   std::size_t row_length(Index i, Index first, std::size_t most) const;
 
  private:

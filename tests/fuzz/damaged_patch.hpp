@@ -26,8 +26,8 @@ std::optional<std::string> why_unsound(const Patch& patch);
 /// \pre it is sound
 bool is_promised_nothing(const Patch& patch);
 
-/// Without constraints that are not edges of elements, and without fixed nodes that no element uses: there is nothing to
-/// keep.
+/// Without constraints that are not edges of elements, and without fixed nodes that no element uses: there is nothing
+/// to keep.
 Patch without_loose_wishes(Patch patch);
 
 /// Where two elements of a result in a plane overlap; its first `kept` quads are the input's own, and nobody has

@@ -15,8 +15,8 @@ inline std::uint64_t seeds(std::uint64_t usual, std::uint64_t least = 1) {
   return text ? std::max<std::uint64_t>(least, usual * std::strtoull(text, nullptr, 10) / 1000) : usual;
 }
 
-/// Whether so many domains are enough for laws about their sums. With fewer, as under the sanitizers, each domain is looked
-/// at for itself, and that is all.
+/// Whether so many domains are enough for laws about their sums. With fewer, as under the sanitizers, each domain is
+/// looked at for itself, and that is all.
 inline bool allows_laws(std::uint64_t domains) { return domains >= 50; }
 
 }  // namespace qmorph::test
