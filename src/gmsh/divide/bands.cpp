@@ -238,8 +238,9 @@ double straight_length(const CurveModel& model, const std::vector<Index>& side) 
 }
 
 /// True of a straight side of a ring between right-angled corners, where the outer curves are longer by the thickness
-/// at each end, if they also have a segment more for each row there: rows turn in a square of quads then. Along a mitre,
-/// which equal numbers would give them, quads are poorer. A ring much thinner than its size has no room for squares.
+/// at each end, if they also have a segment more for each row there: rows turn in a square of quads then. Along a
+/// mitre, which equal numbers would give them, quads are poorer. A ring much thinner than its size has no room for
+/// squares.
 bool BandFinder::is_side_of_frame(const Band& band) const {
   constexpr double kSlack = 0.05;     // of the thickness
   constexpr double kThinnest = 0.75;  // sizes
