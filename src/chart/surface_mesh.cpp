@@ -34,6 +34,12 @@ double own_sine(const SurfaceMesh& mesh, const Face& face) {
   return least;
 }
 
+double smallest_own_sine(const SurfaceMesh& mesh) {
+  double least = 1;
+  for (const Face& face : mesh.faces) least = std::min(least, own_sine(mesh, face));
+  return least;
+}
+
 std::vector<Index> opposite_sides(const SurfaceMesh& mesh) {
   struct Entry {
     Index upper, side, following;

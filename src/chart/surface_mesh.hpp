@@ -42,6 +42,8 @@ struct SurfaceMesh {
 
 /// Smallest sine of a face's corners, signed by the face's own normal: what bends a quad makes it worse.
 double own_sine(const SurfaceMesh& mesh, const Face& face);
+/// Of the worst face.
+double smallest_own_sine(const SurfaceMesh& mesh);
 
 /// By side: the same edge's side in the other face; kNone on the boundary.
 std::vector<Index> opposite_sides(const SurfaceMesh& mesh);

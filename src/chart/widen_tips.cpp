@@ -46,13 +46,11 @@ class Widening {
            mesh_.node[node(before)] == mesh_.node[node(next(after))];
   }
 
-  /// Sides that start at the end of this one, counted from the face that it is of; the last is the one back.
+  /// Sides that start at the end of this one, a node inside, counted from the face that it is of; the last is the one back.
   std::vector<Index> spokes_at_end(Index side) const {
     std::vector<Index> spokes;
-    for (Index spoke = next(side); spoke != kNone; spoke = next(opposite_[spoke])) {
-      spokes.push_back(spoke);
-      if (spoke == opposite_[side]) break;
-    }
+    for (Index spoke = next(side); spoke != opposite_[side]; spoke = next(opposite_[spoke])) spokes.push_back(spoke);
+    spokes.push_back(opposite_[side]);
     return spokes;
   }
 
@@ -105,12 +103,6 @@ class Widening {
 
 std::size_t widen_tips(SurfaceMesh& mesh, const std::vector<Edge>& creases, const space::Background& surface) {
   return Widening(mesh, creases, surface).run();
-}
-
-double smallest_own_sine(const SurfaceMesh& mesh) {
-  double least = 1;
-  for (const Face& face : mesh.faces) least = std::min(least, own_sine(mesh, face));
-  return least;
 }
 
 }  // namespace qmorph::chart

@@ -12,7 +12,4 @@ namespace qmorph::chart {
 /// Cost: linear.
 std::size_t widen_tips(SurfaceMesh& mesh, const std::vector<Edge>& creases, const space::Background& surface);
 
-/// own_sine() of the worst face.
-double smallest_own_sine(const SurfaceMesh& mesh);
-
 }  // namespace qmorph::chart

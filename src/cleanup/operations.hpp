@@ -7,7 +7,7 @@
 #include "cleanup/score.hpp"
 #include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
-#include "kernel/sort_unique.hpp"
+#include "topology/edits.hpp"
 
 namespace qmorph::cleanup {
 
@@ -59,8 +59,7 @@ bool try_two_changes(kernel::Mesh& mesh, const Score& score, const std::vector<I
       if (budget.is_spent()) return false;
       const bool is_kept = attempt([&](std::vector<Index>& nodes) {
         if (!apply(mesh, c, nodes)) return false;
-        std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
-        sort_unique(nodes);
+        topology::keep_live(mesh, nodes);
         if (k == 0) second = best_candidates(mesh, score, nodes, limits.least_gain - c.gain, limits.most_second);
         return k < second.size() && is_new(c, second[k]) && apply(mesh, second[k], nodes);
       });

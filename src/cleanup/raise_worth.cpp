@@ -314,9 +314,9 @@ class Lift {
       kept ? mesh.commit() : mesh.rollback();
       if (!kept) continue;
       changed.insert(changed.end(), nodes.begin(), nodes.end());
-      keep_live(mesh, changed);
+      topology::keep_live(mesh, changed);
       near = std::move(nodes);
-      keep_live(mesh, near);
+      topology::keep_live(mesh, near);
     }
     return changed;
   }
@@ -334,14 +334,9 @@ class Lift {
   }
 
   void relax(kernel::Mesh& mesh, std::vector<Index> nodes) const {
-    keep_live(mesh, nodes);
+    topology::keep_live(mesh, nodes);
     mesh.begin();
     smoothing::smooth_near(mesh, smoothing_, nodes, kRingsOfClimb) ? mesh.commit() : mesh.rollback();
-  }
-
-  static void keep_live(const kernel::Mesh& mesh, std::vector<Index>& nodes) {
-    std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
-    sort_unique(nodes);
   }
 
   kernel::Mesh& mesh_;

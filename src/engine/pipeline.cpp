@@ -12,7 +12,6 @@
 #include "cleanup/replace_cavities.hpp"
 #include "elimination/eliminate.hpp"
 #include "front/morph.hpp"
-#include "kernel/sort_unique.hpp"
 #include "smoothing/corner_energy.hpp"
 #include "smoothing/grid.hpp"
 #include "smoothing/smooth.hpp"
@@ -132,8 +131,7 @@ void Pipeline::clean_near(kernel::Mesh& mesh, const std::vector<Index>& interfac
   std::vector<Index> nodes = interface;
   for (Index f : topology::grow(mesh, topology::faces_around(mesh, nodes), kRings))
     for (Index v : topology::nodes_of(mesh, f)) nodes.push_back(v);
-  sort_unique(nodes);
-  std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
+  topology::keep_live(mesh, nodes);
   smoothing::smooth_near(mesh, options_.smoothing, nodes, 0);
   cleanup::clean_up_near(mesh, options_.smoothing, nodes, until(mesh, kCleanup));
   end_stage(Stage::cleanup, mesh, report_.cleanup_seconds);

@@ -71,7 +71,7 @@ Sides::Sides(const Patch& patch) : patch_(patch), opposite_(3 * patch.triangles.
 }
 
 bool Sides::turns_sharply(Index c) const {
-  constexpr double kSharply = 40 * std::numbers::pi / 180;
+  constexpr double kSharply = 2 * std::numbers::pi / 9;  // as Options::crease_angle, if nobody has asked for another
   const auto normal = [&](Index t) {
     const Eigen::Vector3d& a = point(from(3 * t));
     return Eigen::Vector3d((point(from(3 * t + 1)) - a).cross(point(from(3 * t + 2)) - a));

@@ -40,6 +40,10 @@ void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes) {
     const std::vector<Index> left = nodes_of(mesh, remove_doublet(mesh, v));
     nodes.insert(nodes.end(), left.begin(), left.end());
   }
+  keep_live(mesh, nodes);
+}
+
+void keep_live(const kernel::Mesh& mesh, std::vector<Index>& nodes) {
   std::erase_if(nodes, [&](Index v) { return !mesh.is_live_vertex(v); });
   sort_unique(nodes);
 }

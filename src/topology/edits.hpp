@@ -17,6 +17,9 @@ Index remove_doublet(kernel::Mesh& mesh, Index v);
 /// have a third side in common stays: they would not become one.
 void remove_doublets(kernel::Mesh& mesh, std::vector<Index>& nodes);
 
+/// Leaves the live ones of some nodes, sorted, each once.
+void keep_live(const kernel::Mesh& mesh, std::vector<Index>& nodes);
+
 /// Shrinks a set of faces and puts a layer of quads around it, so that every node of the set is free to
 /// move. Appends the new nodes to `nodes`. False, with nothing changed, if the outline of the
 /// set touches itself.
