@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/worth.hpp"
+#include "kernel/loops.hpp"
 
 namespace qmorph::bands {
 namespace {
@@ -97,29 +98,19 @@ class Side {
 
 }  // namespace
 
-std::vector<Loop> boundary_of(const Region& region, std::size_t most) {
+std::vector<Loop> boundary_of(const Region& region) {
   std::vector<Index> after(region.points.size(), kNone);
   for (std::size_t side = 0; side < region.open.size(); ++side)
     if (region.open[side]) {
       const auto& n = region.triangles[side / 3];
       after[n[side % 3]] = n[(side + 1) % 3];
     }
-  std::vector<Loop> loops;
-  for (Index v = 0; v < after.size() && loops.size() <= most; ++v) {
-    if (after[v] == kNone) continue;
-    Loop loop;
-    for (Index at = v; after[at] != kNone;) {
-      loop.push_back(at);
-      at = std::exchange(after[at], kNone);
-    }
-    loops.push_back(std::move(loop));
-  }
-  return loops;
+  return kernel::follow_loops(std::move(after));
 }
 
 std::optional<Band> find_band(const Region& region) {
   if (region.boundary_sides % 2 != 0) return {};
-  const std::vector<Loop> loops = boundary_of(region, 2);
+  const std::vector<Loop> loops = boundary_of(region);
   if (loops.empty() || loops.size() > 2) return {};
   std::size_t nodes = 0;
   for (const Loop& loop : loops) nodes += loop.size();

@@ -23,8 +23,8 @@ struct Band {
 
 using Loop = std::vector<Index>;
 
-/// The boundary, the region on the left of each loop; no more than one loop beyond `most`.
-std::vector<Loop> boundary_of(const Region& region, std::size_t most);
+/// The boundary, the region on the left of each loop.
+std::vector<Loop> boundary_of(const Region& region);
 
 /// Nothing if the region is no band, or if it is odd. How thick it may be is for find_facing() to say. Cost: linear.
 std::optional<Band> find_band(const Region& region);

@@ -224,7 +224,7 @@ kernel::Mesh mesh_of(const BladePlanner& planner, const std::vector<Rung>& rungs
 std::optional<kernel::Mesh> lay_blade(const Region& region) {
   const std::size_t n = region.boundary_sides;
   if (n < kFewestNodes || n > kMostNodes || n % 2 != 0) return {};
-  std::vector<Loop> loops = boundary_of(region, 1);
+  std::vector<Loop> loops = boundary_of(region);
   if (loops.size() != 1 || loops[0].size() != n) return {};
   for (Index v : region.fixed)
     if (std::find(loops[0].begin(), loops[0].end(), v) == loops[0].end()) return {};

@@ -99,7 +99,7 @@ class ChordPlanner {
 
 std::optional<kernel::Mesh> lay_chords(const Region& region) {
   if (region.boundary_sides < kFewestNodes || region.boundary_sides > kMostNodes) return {};
-  const std::vector<Loop> loops = boundary_of(region, 1);
+  const std::vector<Loop> loops = boundary_of(region);
   if (loops.size() != 1 || loops[0].size() != region.boundary_sides) return {};
   const std::size_t inside = (region.triangles.size() + 2 - region.boundary_sides) / 2;  // by Euler's formula
   if (double(inside) > kMostInside * double(region.boundary_sides)) return {};

@@ -3,36 +3,22 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "chart/local_numbers.hpp"
+#include "kernel/loops.hpp"
 #include "space/angle_sum.hpp"
 
 namespace qmorph::chart {
-namespace {
 
-/// By point: the one that follows on the boundary, or kNone inside.
-std::vector<Index> boundary_steps(const Piece& piece) {
+std::vector<std::vector<Index>> loops_of(const Piece& piece) {
   std::vector<Index> next(piece.points.size(), kNone);
   for (Index side = 0; side < piece.open.size(); ++side)
     if (piece.open[side]) {
       const Face& face = piece.faces[side / 4];
       next[face[side % 4]] = face[next_corner(face, side % 4)];
     }
-  return next;
-}
-
-}  // namespace
-
-std::vector<std::vector<Index>> loops_of(const Piece& piece) {
-  const std::vector<Index> next = boundary_steps(piece);
-  std::vector<char> seen(next.size(), 0);
-  std::vector<std::vector<Index>> loops;
-  for (Index v = 0; v < next.size(); ++v) {
-    if (next[v] == kNone || seen[v]) continue;
-    std::vector<Index>& loop = loops.emplace_back();
-    for (Index w = v; !seen[w]; w = next[w]) seen[w] = 1, loop.push_back(w);
-  }
-  return loops;
+  return kernel::follow_loops(std::move(next));
 }
 
 int euler_characteristic(const Piece& piece) {

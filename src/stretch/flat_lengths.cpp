@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "kernel/loops.hpp"
+
 namespace qmorph::stretch {
 namespace {
 
@@ -28,14 +30,7 @@ std::vector<std::vector<Index>> loops_of(const Background& surface) {
   for (Index side = 0; side < 3 * surface.triangles(); ++side)
     if (surface.opposite(side) == kNone)
       next[surface.corners(side / 3)[side % 3]] = surface.corners(side / 3)[(side + 1) % 3];
-  std::vector<std::vector<Index>> loops;
-  std::vector<char> seen(next.size(), 0);
-  for (Index first = 0; first < next.size(); ++first) {
-    if (next[first] == kNone || seen[first]) continue;
-    loops.emplace_back();
-    for (Index v = first; v != kNone && !seen[v]; v = next[v]) seen[v] = 1, loops.back().push_back(v);
-  }
-  return loops;
+  return kernel::follow_loops(std::move(next));
 }
 
 /// Angles and the cotangents' halves of a triangle by its sides: of the corner across each. One that is no triangle has
