@@ -328,8 +328,7 @@ TEST_CASE("make_even: a new node on a curve that arches turns no triangle over")
   for (std::size_t i = 0; i < nodes.size(); i += 3) {
     std::array<Eigen::Vector3d, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
-      std::vector<double> xyz, parameters;
-      ::gmsh::model::mesh::getNode(nodes[i + k], xyz, parameters);
+      const std::vector<double> xyz = adapter::placed_node(nodes[i + k]).xyz;
       p[k] = {xyz[0], xyz[1], xyz[2]};
     }
     areas.push_back((p[1] - p[0]).cross(p[2] - p[0]).z());

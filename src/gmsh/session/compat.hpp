@@ -42,3 +42,6 @@ inline PlacedNode placed_node(std::size_t tag) {
 }
 
 }  // namespace qmorph::adapter
+
+// Elsewhere they would compile with one version of Gmsh only.
+#pragma GCC poison getType getEntityType getNode
