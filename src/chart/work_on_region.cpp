@@ -133,11 +133,11 @@ class Worker {
   bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
 
   bool improve() {
-    SurfaceMesh widened = mesh_;
-    const bool has_wider_tips = task_ == Task::convert && widen_tips(widened, creases_, background()) > 0;
+    std::optional<SurfaceMesh> widened;
+    if (task_ == Task::convert) widened = with_wider_tips(mesh_, creases_, background());
     const bool is_valid = improve_as_it_is();
-    if (!has_wider_tips) return is_valid;
-    SurfaceMesh narrow = std::exchange(mesh_, std::move(widened));
+    if (!widened) return is_valid;
+    SurfaceMesh narrow = std::exchange(mesh_, std::move(*widened));
     space::Faults faults = faults_;
     const std::size_t spent = effort_.spent;
     const bool is_wider_valid = improve_as_it_is();
