@@ -425,8 +425,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   }
   // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads
   // then.
-  constexpr std::size_t kNotMany = 2000;
-  const int refinings = size <= kFew ? (is_hopeful ? 3 : 0) : size <= kNotMany && !best.work ? 1 : 0;
+  constexpr std::size_t kNotMany = 2000, kCoarse = 200;
+  const int refinings = size <= kFew && is_hopeful ? 3 : best.work || size > kNotMany ? 0 : size <= kCoarse ? 3 : 1;
   Distrust nodes;
   while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
          effort.has_more_for(size))
