@@ -6,6 +6,7 @@
 
 #include "chart/local_numbers.hpp"
 #include "kernel/sort_unique.hpp"
+#include "space/corners.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -22,16 +23,9 @@ double smaller_half(const SurfaceMesh& mesh, const Face& q, int k) {
 }  // namespace
 
 double own_sine(const SurfaceMesh& mesh, const Face& face) {
-  const Index n = degree(face);
-  const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh.points[face[i % n]]; };
-  const Eigen::Vector3d normal = n == 4 ? (at(2) - at(0)).cross(at(3) - at(1)) : (at(1) - at(0)).cross(at(2) - at(0));
-  double least = 1;
-  for (Index i = 0; i < n; ++i) {
-    const Eigen::Vector3d a = at(i + 1) - at(i), b = at(i + n - 1) - at(i);
-    const double lengths = a.norm() * b.norm() * normal.norm();
-    least = std::min(least, lengths > 0 ? a.cross(b).dot(normal) / lengths : -1);
-  }
-  return least;
+  const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh.points[face[i]]; };
+  return degree(face) == 4 ? space::own_sine<4>({at(0), at(1), at(2), at(3)})
+                           : space::own_sine<3>({at(0), at(1), at(2)});
 }
 
 double smallest_own_sine(const SurfaceMesh& mesh) {

@@ -99,10 +99,31 @@ class Widening {
   std::vector<bool> is_changed_;       ///< by face
 };
 
+/// Whether two elements meet at a node that stays, all around it or up to the two sides of one line. Cheap: most
+/// surfaces have no such node.
+bool may_have_narrow_tips(const SurfaceMesh& mesh, const std::vector<Edge>& creases) {
+  std::vector<Index> valence(mesh.points.size(), 0), after(mesh.points.size(), kNone), before(after);
+  std::vector<char> stays = mesh.fixed;
+  for (const auto& [a, b] : creases) stays[a] = stays[b] = 1;
+  for (Index f = 0; f < mesh.faces.size(); ++f)
+    for (Index i = 0; i < degree(mesh.faces[f]); ++i) {
+      const Index a = mesh.faces[f][i], b = mesh.faces[f][next_corner(mesh.faces[f], i)];
+      ++valence[a];
+      if (mesh.open[4 * f + i]) after[a] = mesh.node[b], before[b] = mesh.node[a];
+    }
+  for (Index v = 0; v < valence.size(); ++v)
+    if (valence[v] == 2 && after[v] == before[v] && (stays[v] || after[v] != kNone)) return true;
+  return false;
+}
+
 }  // namespace
 
-std::size_t widen_tips(SurfaceMesh& mesh, const std::vector<Edge>& creases, const space::Background& surface) {
-  return Widening(mesh, creases, surface).run();
+std::optional<SurfaceMesh> with_wider_tips(const SurfaceMesh& mesh, const std::vector<Edge>& creases,
+                                           const space::Background& surface) {
+  if (!may_have_narrow_tips(mesh, creases)) return {};
+  SurfaceMesh widened = mesh;
+  if (Widening(widened, creases, surface).run() == 0) return {};
+  return widened;
 }
 
 }  // namespace qmorph::chart

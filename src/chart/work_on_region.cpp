@@ -133,11 +133,11 @@ class Worker {
   bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
 
   bool improve() {
-    SurfaceMesh widened = mesh_;
-    const bool has_wider_tips = task_ == Task::convert && widen_tips(widened, creases_, background()) > 0;
+    std::optional<SurfaceMesh> widened;
+    if (task_ == Task::convert) widened = with_wider_tips(mesh_, creases_, background());
     const bool is_valid = improve_as_it_is();
-    if (!has_wider_tips) return is_valid;
-    SurfaceMesh narrow = std::exchange(mesh_, std::move(widened));
+    if (!widened) return is_valid;
+    SurfaceMesh narrow = std::exchange(mesh_, std::move(*widened));
     space::Faults faults = faults_;
     const std::size_t spent = effort_.spent;
     const bool is_wider_valid = improve_as_it_is();
@@ -425,8 +425,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   }
   // A surface that nothing else makes valid may be so with nodes in the middles of its edges. There are many quads
   // then.
-  constexpr std::size_t kNotMany = 2000;
-  const int refinings = size <= kFew ? (is_hopeful ? 3 : 0) : size <= kNotMany && !best.work ? 1 : 0;
+  constexpr std::size_t kNotMany = 2000, kCoarse = 200;
+  const int refinings = size <= kFew && is_hopeful ? 3 : best.work || size > kNotMany ? 0 : size <= kCoarse ? 3 : 1;
   Distrust nodes;
   while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
          effort.has_more_for(size))

@@ -119,7 +119,7 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
   const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
-    const auto layers = layers::find_layers(patch, stuck);
+    const auto layers = layers::find_layers(patch, stuck, options.crease_angle);
     if (!layers) break;
     if (plane && i == 0) {
       const Surface whole(patch, *plane);

@@ -143,12 +143,12 @@ std::vector<Cut> make_even_by_few_cuts(Cells& cells, const Parts& regions) {
 
 }  // namespace
 
-std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& without) {
+std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& without, double crease_angle) {
   std::vector<Index> thin;
   for (Index t = 0; t < patch.triangles.size(); ++t)
     if (is_thin(patch, patch.triangles[t])) thin.push_back(t);
   if (!may_be_row(patch, thin)) return std::nullopt;
-  const Sides sides(patch);
+  const Sides sides(patch, crease_angle);
   Cells cells(sides);
   const std::vector<Column> columns = take_columns_on_walls(cells);
   take_fans(cells, columns);

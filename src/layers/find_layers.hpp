@@ -25,7 +25,8 @@ struct Layers {
 
 /// Nothing if the patch has no layers. Points need not lie in a plane.
 /// \param without nodes around which nothing is a layer, by row of `Patch::points`
+/// \param crease_angle as in Options: rows may end at sharp edges as at walls
 /// Cost: linear in the triangles, a few nanoseconds for each where there are none that are thin.
-std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& without);
+std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& without, double crease_angle);
 
 }  // namespace qmorph::layers

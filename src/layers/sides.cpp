@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 namespace qmorph::layers {
@@ -56,7 +55,8 @@ void sort(std::span<Entry> entries) {
 
 }  // namespace
 
-Sides::Sides(const Patch& patch) : patch_(patch), opposite_(3 * patch.triangles.size(), kNone) {
+Sides::Sides(const Patch& patch, double crease_angle)
+    : patch_(patch), sharp_cosine_(std::cos(crease_angle)), opposite_(3 * patch.triangles.size(), kNone) {
   ByLowerNode list = sort_by_lower_node(patch);
   for (std::size_t v = 0; v < patch.points.size(); ++v) {
     sort(std::span(list.entries).subspan(list.first[v], list.first[v + 1] - list.first[v]));
@@ -71,13 +71,12 @@ Sides::Sides(const Patch& patch) : patch_(patch), opposite_(3 * patch.triangles.
 }
 
 bool Sides::turns_sharply(Index c) const {
-  constexpr double kSharply = 2 * std::numbers::pi / 9;  // as Options::crease_angle, if nobody has asked for another
   const auto normal = [&](Index t) {
     const Eigen::Vector3d& a = point(from(3 * t));
     return Eigen::Vector3d((point(from(3 * t + 1)) - a).cross(point(from(3 * t + 2)) - a));
   };
   const Eigen::Vector3d one = normal(c / 3), other = normal(opposite(c) / 3);
-  return one.dot(other) < std::cos(kSharply) * one.norm() * other.norm();
+  return one.dot(other) < sharp_cosine_ * one.norm() * other.norm();
 }
 
 Index Sides::next_wall(Index c) const {

@@ -2,6 +2,7 @@
 #pragma once
 /// The triangles of a patch, and what lies beyond each of their sides.
 
+#include <numbers>
 #include <vector>
 
 #include "qmorph/patch.hpp"
@@ -9,9 +10,10 @@
 namespace qmorph::layers {
 
 /// Side c belongs to triangle c / 3 and runs from its corner c % 3 to the next one. The patch must outlive it.
+/// `crease_angle` (radians, between normals) as Options has it: by default nothing is sharp.
 class Sides {
  public:
-  explicit Sides(const Patch& patch);
+  explicit Sides(const Patch& patch, double crease_angle = std::numbers::pi);
 
   static Index next(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
   static Index previous(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
@@ -36,6 +38,7 @@ class Sides {
 
  private:
   const Patch& patch_;
+  const double sharp_cosine_;  ///< between normals: below it a side is sharp
   std::vector<Index> opposite_;
 };
 

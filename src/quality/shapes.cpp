@@ -68,7 +68,8 @@ std::optional<Vector3d> plane_normal(const Patch& patch) {
   for (const auto& nodes : patch.quads) add(nodes);
   if (!(area.norm() > 0)) return std::nullopt;
   const Vector3d normal = area.normalized();
-  const double tolerance = kPlanarTolerance * box.diagonal().norm();
+  // find_plane() measures from another point, perhaps: what it takes for a plane must be one here.
+  const double tolerance = 2 * kPlanarTolerance * box.diagonal().norm();
   const Vector3d& first = patch.points[patch.triangles.empty() ? patch.quads[0][0] : patch.triangles[0][0]];
   const auto lies_outside = [&](const Vector3d& p) { return std::abs((p - first).dot(normal)) > tolerance; };
   if (std::any_of(patch.points.begin(), patch.points.end(), lies_outside)) return std::nullopt;

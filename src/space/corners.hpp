@@ -78,6 +78,29 @@ std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>
   return least;
 }
 
+/// Normal of an element by the areas of its halves; zero if there is none.
+template <std::size_t N>
+Eigen::Vector3d element_normal(const Corners<N>& p) {
+  const Eigen::Vector3d area =
+      (p[2] - p[0]).cross(p[N - 1] - p[1]);  // of a triangle, p[2] - p[1] is as good as p[2] - p[0]
+  const double length = area.norm();
+  return length > 0 ? Eigen::Vector3d(area / length) : Eigen::Vector3d::Zero();
+}
+
+/// Smallest sine of an element's corners, signed by its own normal: what bends a quad makes it worse. -1 if it has a
+/// side or a normal without length.
+template <std::size_t N>
+double own_sine(const Corners<N>& p) {
+  const Eigen::Vector3d normal = element_normal(p);
+  double least = 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    const Eigen::Vector3d ahead = p[(i + 1) % N] - p[i], behind = p[(i + N - 1) % N] - p[i];
+    const double lengths = std::sqrt(ahead.squaredNorm() * behind.squaredNorm());
+    least = std::min(least, lengths > 0 && !normal.isZero(0) ? ahead.cross(behind).dot(normal) / lengths : -1);
+  }
+  return least;
+}
+
 /// Interior angles in degrees, from 0 to 360, of corners with these signed sines.
 template <std::size_t N>
 std::array<double, N> corner_angles_deg(const Corners<N>& p, const std::array<double, N>& sines) {
@@ -90,15 +113,6 @@ std::array<double, N> corner_angles_deg(const Corners<N>& p, const std::array<do
     angles[i] = angle < 0 ? angle + 360 : angle;
   }
   return angles;
-}
-
-/// Normal of an element by the areas of its halves; zero if there is none.
-template <std::size_t N>
-Eigen::Vector3d element_normal(const Corners<N>& p) {
-  const Eigen::Vector3d area =
-      (p[2] - p[0]).cross(p[N - 1] - p[1]);  // of a triangle, p[2] - p[1] is as good as p[2] - p[0]
-  const double length = area.norm();
-  return length > 0 ? Eigen::Vector3d(area / length) : Eigen::Vector3d::Zero();
 }
 
 }  // namespace qmorph::space

@@ -96,8 +96,12 @@ class TipCreases {
   TipCreases(const Background& surface, std::vector<bool>& is_crease)
       : surface_(surface), is_crease_(is_crease), is_outer_(surface.points().size(), 0) {
     std::vector<std::pair<Index, Index>> ends;  // node, side that is a crease and starts there
+    before_.assign(surface.points().size(), kNone), after_ = before_;
     for (Index side = 0; side < is_crease.size(); ++side) {
-      if (surface.opposite(side) == kNone) is_outer_[node(side)] = is_outer_[target(side)] = 1;
+      if (surface.opposite(side) == kNone) {
+        is_outer_[node(side)] = is_outer_[target(side)] = 1;
+        after_[node(side)] = target(side), before_[target(side)] = node(side);
+      }
       if (is_crease[side]) ends.emplace_back(node(side), side);
     }
     std::sort(ends.begin(), ends.end());
@@ -109,7 +113,7 @@ class TipCreases {
   void drop() {
     for (Index v = 0; v + 1 < first_.size(); ++v) {
       const std::span<const Index> here = at(v);
-      if (here.size() < (is_outer_[v] ? 2u : 3u)) continue;
+      if (here.size() < fewest_at(v)) continue;
       std::vector<Index> all;
       if (!std::all_of(here.begin(), here.end(), [&](Index side) { return ends_soon(side, all); })) continue;
       for (const Index side : all) is_crease_[side] = is_crease_[surface_.opposite(side)] = false;
@@ -120,6 +124,13 @@ class TipCreases {
   Index node(Index side) const { return surface_.corners(side / 3)[side % 3]; }
   Index target(Index side) const { return surface_.corners(side / 3)[(side % 3 + 1) % 3]; }
   std::span<const Index> at(Index v) const { return {sides_.data() + first_[v], first_[v + 1] - first_[v]}; }
+
+  /// At the end of a line, as of a cone's seam, one is as good as two elsewhere on the boundary. On both sides of a line
+  /// there are nodes of their own.
+  std::size_t fewest_at(Index v) const {
+    if (!is_outer_[v]) return 3;
+    return surface_.points()[before_[v]] == surface_.points()[after_[v]] ? 1 : 2;
+  }
 
   /// Adds the way.
   bool ends_soon(Index side, std::vector<Index>& way) const {
@@ -137,7 +148,8 @@ class TipCreases {
 
   const Background& surface_;
   std::vector<bool>& is_crease_;
-  std::vector<char> is_outer_;  ///< by node
+  std::vector<char> is_outer_;         ///< by node
+  std::vector<Index> before_, after_;  ///< by node: along the boundary
   std::vector<Index> first_, sides_;
 };
 
@@ -159,6 +171,7 @@ std::vector<std::pair<Index, Index>> find_creases(const Background& surface, dou
   }
   TipCreases(surface, is_crease).drop();
   drop_around_crumbs(surface, counts, is_crease);
+  TipCreases(surface, is_crease).drop();  // what joined one to others may have gone
   for (Index side = 0; side < is_crease.size(); ++side)
     if (is_crease[side])
       creases.push_back(std::minmax(surface.corners(side / 3)[side % 3], surface.corners(side / 3)[(side + 1) % 3]));

@@ -43,7 +43,9 @@ std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
   constexpr double kLeastRise = 0.2;  // with less, normals of triangles beside those at a corner may say otherwise
   std::vector<Index> faces;
   for (Index f = 0; f < mesh.faces(); ++f)
-    if (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise && !folds.are_under(f)) faces.push_back(f);
+    if ((mesh.own_sine(f) <= 0 || (!mesh.is_clearly_above(f, 0) && mesh.exact_rise(f) < kLeastRise)) &&
+        !folds.are_under(f))
+      faces.push_back(f);
   return faces;
 }
 
@@ -60,6 +62,7 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
     smooth(view, options);
     settle(view, options);
     smooth_near(view, options, raise_poor(view, options));
+    raise_bent(view, options);
     const bool is_valid = find_poor(view, 0).empty();
     looks += view.exact_looks();
     if (Folds folds(view, surface); is_valid) return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
@@ -68,6 +71,7 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options, faults.work);
   MeshOnSurface view(mesh, creases, surface, whole, stretched);
   smooth_near(view, options, raise_poor(view, options));
+  raise_bent(view, options);
   Folds folds(view, surface);
   for (const PoorFace& poor : find_poor(view, 0))
     if (!folds.are_under(poor.face)) faults.turned.push_back(poor.face);

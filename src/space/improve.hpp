@@ -12,7 +12,7 @@ namespace qmorph::space {
 /// Faces that remain bad when nothing helps any more, apart from those where the surface itself is folded.
 struct Faults {
   std::vector<Index> turned;    ///< they stay turned over, the worst first
-  std::vector<Index> doubtful;  ///< valid, but it is nearly chance that they are
+  std::vector<Index> doubtful;  ///< valid, but it is nearly chance that they are, or by the surface's normals only
   std::size_t work = 0;         ///< that it took, above all to look closely; as kernel::Mesh::work() counts it
 };
 

@@ -75,6 +75,8 @@ class MeshOnSurface {
   double smallest_sine_around(Index v) const;
   /// The one that counts, by the surface's normals near the corners.
   double exact_sine(Index face) const;
+  /// By the face's own normal: a solver judges an element by itself.
+  double own_sine(Index face) const { return chart::own_sine(mesh_, mesh_.faces[face]); }
   /// How often exact_sine() was asked for, which costs much more than anything else here.
   std::size_t exact_looks() const { return exact_looks_; }
   /// smallest_rise() by the same normals.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace qmorph::space {
 namespace {
@@ -52,15 +53,24 @@ class Mover {
 
   template <std::size_t N>
   bool is_spoiled(Index element, const std::array<Index, N>& nodes) const {
-    const double quality = least_sine(element, nodes, mesh_.points);
+    const Corners<N> corners = corners_at(mesh_.points, nodes);
+    const double sine = least_sine(element, corners, nodes), quality = std::min(sine, own_sine(corners));
     if (quality > kLeastQuality) return false;
-    return !(quality > 0) || quality < kSameQuality * least_sine(element, nodes, home_);
+    if (!(sine > 0)) return true;
+    const Corners<N> before = corners_at(home_, nodes);
+    const double had = std::min(least_sine(element, before, nodes), own_sine(before));
+    return quality < had - (1 - kSameQuality) * std::abs(had);
   }
 
   template <std::size_t N>
-  double least_sine(Index element, const std::array<Index, N>& nodes, const std::vector<Vector3d>& points) const {
+  static Corners<N> corners_at(const std::vector<Vector3d>& points, const std::array<Index, N>& nodes) {
     Corners<N> corners;
     for (std::size_t i = 0; i < N; ++i) corners[i] = points[nodes[i]];
+    return corners;
+  }
+
+  template <std::size_t N>
+  double least_sine(Index element, const Corners<N>& corners, const std::array<Index, N>& nodes) const {
     const auto sines = result_.sines(element, corners, nodes);
     return *std::min_element(sines.begin(), sines.end());
   }

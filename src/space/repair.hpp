@@ -11,10 +11,11 @@
 
 namespace qmorph::space {
 
-/// A face and its exact smallest sine.
+/// A face and its smallest sine.
 struct PoorFace {
   double sine;
   Index face;
+  bool is_straight;  ///< in a corner, by the surface's normals
 };
 
 /// Faces whose smallest corner sine is below `sine`, worst first; with 0 those that are not valid.
@@ -25,6 +26,9 @@ std::vector<PoorFace> find_poor(const MeshOnSurface& mesh, double sine);
 /// and of close ones (`MeshOnSurface::exact_sine`) a smaller number.
 /// Where triangles are stretched, only nodes of invalid faces move. Returns the nodes that moved.
 std::vector<Index> raise_poor(MeshOnSurface& mesh, const SmoothingOptions& options);
+/// The same for quads that are bent so much that they are poor by their own normals, and not by the surface's: a solver
+/// judges an element by itself. Smoothing would bend some again, so this comes last.
+void raise_bent(MeshOnSurface& mesh, const SmoothingOptions& options);
 
 /// Faces that are not valid are taken out with a few rings around, laid flat with the surface under them, and untangled
 /// there, by moving nodes first, then by changing what is joined to what. What becomes no better stays as it is.

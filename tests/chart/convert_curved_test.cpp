@@ -11,9 +11,12 @@
 #include "chart/widen_tips.hpp"
 #include "chart/work_on_region.hpp"
 #include "engine/allowance.hpp"
+#include "geometry/predicates.hpp"
+#include "qmorph/check.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/error.hpp"
 #include "qmorph/quality.hpp"
+#include "space/corners.hpp"
 #include "space/creases.hpp"
 #include "space/surfaces.hpp"
 #include "support/invariants.hpp"
@@ -188,6 +191,19 @@ TEST_CASE("curved: a plate that is off its plane by a file's rounding is what it
   }
 }
 
+TEST_CASE("curved: a plate that is off its plane by about what a plane may be is the same to all who look at it") {
+  Rng rng(29);
+  const Patch plane = pierced(plate(8, 6), {4, 3, 0}, 1.5);
+  for (int i = 0; i < 12; ++i) {
+    CAPTURE(i);
+    Patch patch = plane;
+    for (Vector3d& p : patch.points) p.z() += 0.7 * kPlanarTolerance * 10 * rng.between(-1, 1);
+    const QuadMesh mesh = convert(patch).mesh;
+    const auto defect = find_defect(patch, mesh);
+    CHECK_MESSAGE(!defect, (defect ? defect->what : ""));
+  }
+}
+
 TEST_CASE("curved: coarse surfaces of few triangles") {
   Rng rng(24);
   for (const Patch& patch : {box({1, 1, 1}, 1, rng), sphere(1.2, rng), sphere(0.5, rng), tube(1, 0.3, 0.6, 0, rng),
@@ -262,39 +278,61 @@ TEST_CASE("curved: what has no two sides is refused by name") {
   CHECK_THROWS_AS(convert(patch), SurfaceError);
 }
 
-TEST_CASE("curved: a tip of a cone that two quads surround gets a third") {
-  // Two quads around node 0, and two rings of quads around them.
+namespace {
+
+/// Two quads around the tip of a cone, and two rings of quads around them.
+struct TipOfTwo {
+  Patch patch = cone(4, 6, 3);
+  Start start{patch};
   chart::SurfaceMesh mesh;
-  const Patch patch = cone(4, 6, 3);
-  const Start start(patch);
-  const auto add = [&](double r, double angle) {
-    return mesh.add_point({r * std::cos(angle), r * std::sin(angle), -3 * r}, Index(0));
-  };
-  const Index tip = add(0, 0);
-  mesh.fixed[tip] = 1;
+  Index tip = add(0, 0);
   std::vector<Index> rings[3];
-  for (int ring = 0; ring < 3; ++ring)
-    for (int k = 0; k < 4; ++k) rings[ring].push_back(add(1 + ring, std::numbers::pi / 2 * k));
-  mesh.faces.push_back({tip, rings[0][0], rings[0][1], rings[0][2]});
-  mesh.faces.push_back({tip, rings[0][2], rings[0][3], rings[0][0]});
-  for (int ring = 0; ring < 2; ++ring)
-    for (int k = 0; k < 4; ++k)
-      mesh.faces.push_back(
-          {rings[ring][k], rings[ring + 1][k], rings[ring + 1][(k + 1) % 4], rings[ring][(k + 1) % 4]});
-  mesh.near.assign(mesh.faces.size(), 0);
-  mesh.open.assign(4 * mesh.faces.size(), false);
-  for (int k = 0; k < 4; ++k) mesh.open[4 * (6 + k) + 1] = true;
+
+  TipOfTwo() {
+    mesh.fixed[tip] = 1;
+    for (int ring = 0; ring < 3; ++ring)
+      for (int k = 0; k < 4; ++k) rings[ring].push_back(add(1 + ring, std::numbers::pi / 2 * k));
+    mesh.faces.push_back({tip, rings[0][0], rings[0][1], rings[0][2]});
+    mesh.faces.push_back({tip, rings[0][2], rings[0][3], rings[0][0]});
+    for (int ring = 0; ring < 2; ++ring)
+      for (int k = 0; k < 4; ++k)
+        mesh.faces.push_back(
+            {rings[ring][k], rings[ring + 1][k], rings[ring + 1][(k + 1) % 4], rings[ring][(k + 1) % 4]});
+    mesh.near.assign(mesh.faces.size(), 0);
+    mesh.open.assign(4 * mesh.faces.size(), false);
+    for (int k = 0; k < 4; ++k) mesh.open[4 * (6 + k) + 1] = true;
+  }
+
+  Index add(double r, double angle) { return mesh.add_point(at(r, angle), Index(0)); }
+  static Eigen::Vector3d at(double r, double angle) { return {r * std::cos(angle), r * std::sin(angle), -3 * r}; }
+};
+
+}  // namespace
+
+TEST_CASE("curved: a tip of a cone that two quads surround gets a third") {
+  TipOfTwo two;
+  chart::SurfaceMesh& mesh = two.mesh;
   const auto at_tip = [&] {
     return std::count_if(mesh.faces.begin(), mesh.faces.end(),
-                         [&](const chart::Face& f) { return std::count(f.begin(), f.end(), tip) > 0; });
+                         [&](const chart::Face& f) { return std::count(f.begin(), f.end(), two.tip) > 0; });
   };
   REQUIRE(at_tip() == 2);
-  CHECK(chart::widen_tips(mesh, {}, *start.region.background) == 1);
+  const auto widened = chart::with_wider_tips(mesh, {}, *two.start.region.background);
+  REQUIRE(widened);
+  mesh = *widened;
   CHECK(at_tip() == 3);
   CHECK(mesh.faces.size() == 11);
   std::size_t open = 0;
   for (Index other : chart::opposite_sides(mesh)) open += other == kNone;
   CHECK(open == 4);
   // All three fan out now.
-  CHECK(chart::widen_tips(mesh, {}, *start.region.background) == 0);
+  CHECK(!chart::with_wider_tips(mesh, {}, *two.start.region.background));
+}
+
+TEST_CASE("curved: quads at the tip of a cone are good by their own normals, too") {
+  for (const auto& [around, rings] : {std::pair(3, 9), std::pair(4, 6)}) {
+    const QuadMesh mesh = convert(cone(around, rings, 3)).mesh;
+    const auto at = [&](Index v) -> const Vector3d& { return mesh.points[v]; };
+    for (const auto& q : mesh.quads) CHECK(space::own_sine<4>({at(q[0]), at(q[1]), at(q[2]), at(q[3])}) > 0.4);
+  }
 }

@@ -46,14 +46,16 @@ std::function<Vector3d(Index, Index)> rectangles(double length, double height) {
   return [=](Index i, Index j) { return Vector3d(i * length, j * height, 0); };
 }
 
-std::size_t layer_quads(const Patch& patch) {
-  const auto layers = qmorph::layers::find_layers(patch, std::vector<bool>(patch.points.size()));
+const double kCreaseAngle = qmorph::Options().crease_angle;
+
+std::size_t layer_quads(const Patch& patch, double crease_angle = kCreaseAngle) {
+  const auto layers = qmorph::layers::find_layers(patch, std::vector<bool>(patch.points.size()), crease_angle);
   return layers ? layers->quads : 0;
 }
 
 /// The cells of grid(nx, ny) that are quads of layers.
 std::size_t whole_cells(const Patch& patch, Index nx, Index ny) {
-  const auto layers = qmorph::layers::find_layers(patch, std::vector<bool>(patch.points.size()));
+  const auto layers = qmorph::layers::find_layers(patch, std::vector<bool>(patch.points.size()), kCreaseAngle);
   if (!layers) return 0;
   std::set<Quad> quads;
   for (Quad q : layers->patch.quads) {
@@ -169,6 +171,7 @@ TEST_CASE("layers: the wall of a cylinder, as CAD programs write it, is a quad f
       }
     }
     CHECK(layer_quads(patch) >= facets - 1);
+    CHECK(layer_quads(patch, std::numbers::pi) < facets - 1);  // --crease 180: the rim is no wall
     const qmorph::QuadMesh mesh = qmorph::convert(patch).mesh;
     CHECK(mesh.triangles.empty());
     CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.7);
@@ -328,7 +331,7 @@ TEST_CASE("layers: around a node that no quads were found for, triangles are lef
   const Patch patch = grid(10, 10, rectangles(10, 1));
   std::vector<bool> without(patch.points.size(), false);
   without[5 * 11 + 5] = true;
-  const auto layers = qmorph::layers::find_layers(patch, without);
+  const auto layers = qmorph::layers::find_layers(patch, without, kCreaseAngle);
   REQUIRE(layers.has_value());
   CHECK(layers->quads == 96);
   CHECK(layers->patch.triangles.size() == 8);

@@ -85,33 +85,52 @@ TEST_CASE("creases: a triangle without height does not decide") {
   CHECK(creases(patch, 60).empty());
 }
 
-TEST_CASE("creases: what few triangles make of the tip of a cone is none") {
-  for (const int around : {3, 4, 5}) {  // triangles at the tip; twice as many edges in each ring as in the one before
-    CAPTURE(around);
-    Patch patch;
-    patch.points.emplace_back(0, 0, 0);
-    std::vector<Index> inner(1, 0);
-    for (int ring = 1, count = around; ring <= 4; ++ring, count *= 2) {
-      std::vector<Index> outer;
-      for (int i = 0; i < count; ++i) {
-        outer.push_back(Index(patch.points.size()));
-        const double angle = 2 * std::numbers::pi * i / count;
-        patch.points.emplace_back(ring * std::cos(angle), ring * std::sin(angle), -3.0 * ring);
-      }
-      const auto out = [&](int i) { return outer[std::size_t(i % count)]; };
-      const auto in = [&](int i) { return inner[std::size_t(i) % inner.size()]; };
-      for (int i = 0; i < count; ++i) {
-        if (ring == 1) {
-          patch.triangles.push_back({0, out(i), out(i + 1)});
-        } else if (i % 2 == 0) {
-          patch.triangles.push_back({in(i / 2), out(i), out(i + 1)});
-        } else {
-          patch.triangles.push_back({in(i / 2), out(i), in(i / 2 + 1)});
-          patch.triangles.push_back({in(i / 2 + 1), out(i), out(i + 1)});
-        }
-      }
-      inner = outer;
+namespace {
+
+/// Rings around the tip of a cone, each with twice as many edges as the one before. `ring`: directions of the nodes of
+/// the first (turns), from 0 on. With a seam, nodes at 0 are there twice.
+Patch cone_tip(std::vector<double> ring, bool has_seam) {
+  Patch patch;
+  patch.points.emplace_back(0, 0, 0);
+  const int around = int(ring.size());
+  ring.push_back(1);
+  std::vector<Index> inner(1, 0);
+  for (int r = 1, count = around; r <= 4; ++r, count *= 2) {
+    std::vector<Index> outer;
+    for (int i = 0; i < count + has_seam; ++i) {
+      outer.push_back(Index(patch.points.size()));
+      const int k = i % count * around / count;
+      const double share = double(i % count * around % count) / count;
+      const double angle =
+          2 * std::numbers::pi * (ring[std::size_t(k)] + share * (ring[std::size_t(k) + 1] - ring[std::size_t(k)]));
+      patch.points.emplace_back(r * std::cos(angle), r * std::sin(angle), -3.0 * r);
     }
-    CHECK(creases(patch).empty());
+    const auto out = [&](int i) { return outer[std::size_t(i) % outer.size()]; };
+    const auto in = [&](int i) { return inner[std::size_t(i) % inner.size()]; };
+    for (int i = 0; i < count; ++i) {
+      if (r == 1) {
+        patch.triangles.push_back({0, out(i), out(i + 1)});
+      } else if (i % 2 == 0) {
+        patch.triangles.push_back({in(i / 2), out(i), out(i + 1)});
+      } else {
+        patch.triangles.push_back({in(i / 2), out(i), in(i / 2 + 1)});
+        patch.triangles.push_back({in(i / 2 + 1), out(i), out(i + 1)});
+      }
+    }
+    inner = outer;
   }
+  return patch;
+}
+
+}  // namespace
+
+TEST_CASE("creases: what few triangles make of the tip of a cone is none") {
+  CHECK(creases(cone_tip({0, 1.0 / 3, 2.0 / 3}, false)).empty());
+  CHECK(creases(cone_tip({0, 0.25, 0.5, 0.75}, false)).empty());
+  CHECK(creases(cone_tip({0, 0.2, 0.4, 0.6, 0.8}, false)).empty());
+  // With a seam, which ends there. One edge inside is sharp, or more.
+  CHECK(creases(cone_tip({0, 1.0 / 3, 2.0 / 3}, true)).empty());
+  CHECK(creases(cone_tip({0, 0.5}, true)).empty());
+  CHECK(creases(cone_tip({0, 0.07, 0.55}, true)).empty());
+  CHECK(creases(cone_tip({0, 0.1, 0.6, 0.9}, true)).empty());
 }
