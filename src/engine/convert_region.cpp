@@ -154,9 +154,9 @@ class RegionConverter {
   void take_rows(Attempt& best) {
     constexpr double kAsGood = 0.01;
     if (best.fault) return;
-    const bool is_refused = judge(best.mesh).least < kRefused;
-    const std::optional<bands::Band> band =
-        bands::find_band(region_, is_refused ? bands::kAnyBand : bands::BandLimits());
+    std::optional<bands::Band> band = bands::find_band(region_);
+    const bool is_usual = band.has_value();
+    if (!band && judge(best.mesh).least < kRefused) band = bands::find_band(region_, bands::kAnyBand);
     if (!band) return;
     for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
       auto rows = bands::lay_rows(*band, region_.points, costs);
@@ -165,7 +165,8 @@ class RegionConverter {
       finish(laid);
       const Worth one = judge(laid.mesh), other = judge(best.mesh);
       // A poor quad more is too high a price for rows.
-      if (laid.fault || !is_worth_more(one, other) || one.least < std::min(other.least - kAsGood, kFair)) continue;
+      const double least = is_usual ? std::min(other.least - kAsGood, kFair) : kFair;
+      if (laid.fault || !is_worth_more(one, other) || one.least < least) continue;
       best = std::move(laid);
     }
   }
