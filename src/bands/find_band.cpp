@@ -13,8 +13,6 @@
 namespace qmorph::bands {
 namespace {
 
-/// A band is so many times as long as thick, at least.
-constexpr std::size_t kLeastEdges = 6;
 /// The sides are so many edges apart, at most.
 constexpr double kLargestGap = 3.6;
 /// A corner of a strip is sharper.
@@ -39,11 +37,11 @@ void put_longer_below(Band& band) {
   std::reverse(band.end.begin(), band.end.end());
 }
 
-bool has_fair_sides(const Band& band) {
-  return band.upper.size() > kLeastEdges && band.lower.size() <= kLargestRatio * band.upper.size();
+bool has_fair_sides(const Band& band, const BandLimits& limits) {
+  return band.upper.size() > limits.least_edges && band.lower.size() <= kLargestRatio * band.upper.size();
 }
 
-std::optional<Band> ring(Loop one, Loop other) {
+std::optional<Band> ring(Loop one, Loop other, const BandLimits& limits) {
   Band band;
   band.is_ring = true;
   std::reverse(other.begin(), other.end());
@@ -51,19 +49,33 @@ std::optional<Band> ring(Loop one, Loop other) {
   other.push_back(other.front());
   band.lower = std::move(one), band.upper = std::move(other);
   put_longer_below(band);
-  if (!has_fair_sides(band)) return {};
+  if (!has_fair_sides(band, limits)) return {};
   return band;
 }
 
-/// A strip has four corners, two of them at each end.
-std::optional<Band> strip(const Loop& loop, const std::vector<Vec2>& points) {
-  std::vector<std::size_t> corners;
+/// Places in the loop.
+std::vector<std::size_t> corners_of(const Loop& loop, const std::vector<Vec2>& points, const BandLimits& limits) {
+  std::vector<std::pair<double, std::size_t>> nodes;
   const std::size_t n = loop.size();
-  for (std::size_t i = 0; i < n && corners.size() <= 4; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const Vec2 at = points[loop[i]];
-    if (ccw_angle(points[loop[(i + 1) % n]] - at, points[loop[(i + n - 1) % n]] - at) < kCornerAngle)
-      corners.push_back(i);
+    const double angle = ccw_angle(points[loop[(i + 1) % n]] - at, points[loop[(i + n - 1) % n]] - at);
+    if (limits.may_have_any_ends || angle < kCornerAngle) nodes.emplace_back(angle, i);
   }
+  if (limits.may_have_any_ends && n > 4) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.resize(4);
+  }
+  std::vector<std::size_t> corners;
+  for (const auto& node : nodes) corners.push_back(node.second);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// A strip has four corners, two of them at each end.
+std::optional<Band> strip(const Loop& loop, const std::vector<Vec2>& points, const BandLimits& limits) {
+  const std::vector<std::size_t> corners = corners_of(loop, points, limits);
+  const std::size_t n = loop.size();
   if (corners.size() != 4) return {};
   std::array<Loop, 4> sides;
   for (std::size_t k = 0; k < 4; ++k)
@@ -79,7 +91,7 @@ std::optional<Band> strip(const Loop& loop, const std::vector<Vec2>& points) {
   std::reverse(band.start.begin(), band.start.end());
   put_longer_below(band);
   constexpr std::size_t kMostNodes = std::size_t(kMostRows) + 1;
-  if (!has_fair_sides(band) || band.start.size() > kMostNodes || band.end.size() > kMostNodes) return {};
+  if (!has_fair_sides(band, limits) || band.start.size() > kMostNodes || band.end.size() > kMostNodes) return {};
   return band;
 }
 
@@ -108,7 +120,7 @@ std::vector<Loop> boundary_of(const Region& region) {
   return kernel::follow_loops(std::move(after));
 }
 
-std::optional<Band> find_band(const Region& region) {
+std::optional<Band> find_band(const Region& region, const BandLimits& limits) {
   if (region.boundary_sides % 2 != 0) return {};
   const std::vector<Loop> loops = boundary_of(region);
   if (loops.empty() || loops.size() > 2) return {};
@@ -120,7 +132,8 @@ std::optional<Band> find_band(const Region& region) {
     for (Index v : loop) on_boundary[v] = true;
   for (Index v : region.fixed)
     if (!on_boundary[v]) return {};
-  std::optional<Band> band = loops.size() == 2 ? ring(loops[0], loops[1]) : strip(loops[0], region.points);
+  std::optional<Band> band =
+      loops.size() == 2 ? ring(loops[0], loops[1], limits) : strip(loops[0], region.points, limits);
   if (band)
     band->rows = std::max(1.0, 2 / kTrianglesPerQuad * double(region.triangles.size()) / double(region.boundary_sides));
   return band;

@@ -23,11 +23,19 @@ struct Band {
 
 using Loop = std::vector<Index>;
 
+/// What counts as a band.
+struct BandLimits {
+  std::size_t least_edges = 6;     ///< of the shorter side
+  bool may_have_any_ends = false;  ///< the corners of a strip are the four sharpest nodes, whatever their angles
+};
+/// Where other ways have failed.
+constexpr BandLimits kAnyBand{2, true};
+
 /// The boundary, the region on the left of each loop.
 std::vector<Loop> boundary_of(const Region& region);
 
 /// Nothing if the region is no band, or if it is odd. How thick it may be is for find_facing() to say. Cost: linear.
-std::optional<Band> find_band(const Region& region);
+std::optional<Band> find_band(const Region& region, const BandLimits& limits = {});
 
 /// For each node of `lower` the node of `upper` that it faces: the nearest one, never one before that of the node
 /// before. Those of a ring may run on beyond `upper`, around once more; its `upper` is rotated such that they begin

@@ -43,6 +43,18 @@ bool is_small(const Region& region, const Options& options) {
 /// Whether so many triangles are few enough for other constants of the front.
 bool may_try_again(std::size_t triangles, const Options& options) { return triangles <= 2 * options.retry_triangles; }
 
+/// Scaled Jacobians that solvers refuse, and that are fair.
+constexpr double kRefused = 0.2, kFair = 0.5;
+
+/// In all; but a mesh that is finer than asked for is better than a quad that solvers refuse, up to a limit.
+bool is_worth_more(const Worth& one, const Worth& other) {
+  constexpr double kMostGrowth = 2.5;
+  const auto mends = [](const Worth& a, const Worth& b) {
+    return a.least >= kFair && b.least < kRefused && a.growth <= kMostGrowth;
+  };
+  return mends(one, other) || (one.sum() > other.sum() && !mends(other, one));
+}
+
 /// What a front has decided and made.
 struct Front {
   front::Decisions decisions;
@@ -137,11 +149,15 @@ class RegionConverter {
     return worth;
   }
 
-  /// A thin band as rows, if they are worth more.
+  /// A thin band as rows, if they are worth more. A short one, one with oblique ends, and rows that are finer than asked
+  /// for are taken only in place of what solvers refuse: where the ends of a strip have nodes in their middles, say.
   void take_rows(Attempt& best) {
-    const std::optional<bands::Band> band = best.fault ? std::nullopt : bands::find_band(region_);
+    constexpr double kAsGood = 0.01;
+    if (best.fault) return;
+    std::optional<bands::Band> band = bands::find_band(region_);
+    const bool is_usual = band.has_value();
+    if (!band && judge(best.mesh).least < kRefused) band = bands::find_band(region_, bands::kAnyBand);
     if (!band) return;
-    constexpr double kAsGood = 0.01, kFair = 0.5;
     for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
       auto rows = bands::lay_rows(*band, region_.points, costs);
       if (!rows || double(cost_) > allowed_) return;
@@ -149,7 +165,8 @@ class RegionConverter {
       finish(laid);
       const Worth one = judge(laid.mesh), other = judge(best.mesh);
       // A poor quad more is too high a price for rows.
-      if (laid.fault || one.sum() <= other.sum() || one.least < std::min(other.least - kAsGood, kFair)) continue;
+      const double least = is_usual ? std::min(other.least - kAsGood, kFair) : kFair;
+      if (laid.fault || !is_worth_more(one, other) || one.least < least) continue;
       best = std::move(laid);
     }
   }
@@ -232,7 +249,7 @@ class RegionConverter {
                                               [](const Attempt& a, const Attempt& b) { return a.promise < b.promise; });
       finish(*promising);
       const Worth other = judge(promising->mesh);
-      if (!promising->fault && other.sum() > worth.sum()) best = std::move(*promising), worth = other;
+      if (!promising->fault && is_worth_more(other, worth)) best = std::move(*promising), worth = other;
       tries.erase(promising);
     };
     add_tries(tries, best, size, worth, true);
@@ -473,7 +490,7 @@ kernel::Mesh convert_region(const Region& region, const Plane& plane, const Opti
   Attempt best = converter.run();
   std::size_t cost = converter.cost();
   if (auto other = convert_without_ear(region, plane, options, allowed - double(cost), tries, cost))
-    if (worth_of(other->mesh, size).sum() > worth_of(best.mesh, size).sum()) best = std::move(*other);
+    if (is_worth_more(worth_of(other->mesh, size), worth_of(best.mesh, size))) best = std::move(*other);
   best.mesh.add_work(cost - best.mesh.work());
   report = best.report;
   record = std::move(best.record);

@@ -38,19 +38,24 @@ class Sides {
   /// The same edge's side in the other triangle; kNone on the boundary and on a constraint.
   Index opposite(Index c) const { return opposite_[c]; }
 
-  /// Where several fans of triangles meet at a node, all but the first get one of their own.
-  void separate_fans() {
-    std::vector<bool> is_boundary(nodes(), false), is_taken = is_boundary, is_done(node_.size(), false);
-    for (Index c = 0; c < node_.size(); ++c)
-      if (opposite_[c] == kNone) is_boundary[node_[c]] = true;
+  /// Where several fans of triangles meet at a node, all but the first get one of their own. Returns the rows of nodes
+  /// that lie inside of one fan, and have others, or quads, beside: those touch the surface there.
+  std::vector<Index> separate_fans(const Patch& patch) {
+    std::vector<bool> is_taken(nodes(), false), is_inside = is_taken, is_done(node_.size(), false);
+    std::vector<bool> has_quad(patch.points.size(), false);
+    for (const auto& quad : patch.quads)
+      for (Index row : quad) has_quad[row] = true;
+    std::vector<Index> touched;
     for (Index c = 0; c < node_.size(); ++c) {
-      const Index node = node_[c];
-      if (is_done[c] || !is_boundary[node]) continue;
-      const Index own = is_taken[node] ? nodes() : node;
-      if (own != node) row_.push_back(row_[node]);
+      if (is_done[c]) continue;
+      const Index node = node_[c], row = row_[node], own = is_taken[node] ? nodes() : node;
+      if (own != node) row_.push_back(row);
+      const bool is_closed = for_fan(c, [&](Index e) { node_[e] = own, is_done[e] = true; });
+      if ((is_closed && has_quad[row]) || (own != node && (is_closed || is_inside[node]))) touched.push_back(row);
       is_taken[node] = true;
-      for_fan(c, [&](Index e) { node_[e] = own, is_done[e] = true; });
+      if (is_closed) is_inside[node] = true;
     }
+    return touched;
   }
 
  private:
@@ -138,17 +143,18 @@ class Sides {
     opposite_[c] = kNone;
   }
 
-  /// Calls visit(corner) for corner c and all others of its fan.
+  /// Calls visit(corner) for corner c and all others of its fan. True if they go all round.
   template <class Visit>
-  void for_fan(Index c, const Visit& visit) const {
+  bool for_fan(Index c, const Visit& visit) const {
     visit(c);
     Index e = opposite_[c];
     for (; e != kNone; e = opposite_[e]) {
       e = next(e);
-      if (e == c) return;  // all round
+      if (e == c) return true;
       visit(e);
     }
     for (e = c; (e = opposite_[previous(e)]) != kNone;) visit(e);
+    return false;
   }
 
   struct Edge {
@@ -198,12 +204,13 @@ std::vector<std::array<Index, 2>> boundary_edges(const Region& region) {
 
 std::vector<Region> cut_into_regions(const Patch& patch, const std::vector<Vec2>& plane_points, EdgesOfMany many) {
   Sides sides(patch, many);
-  sides.separate_fans();
+  const std::vector<Index> touched = sides.separate_fans(patch);
   std::vector<std::size_t> sizes;
   const std::vector<Index> region_of = number_regions(sides, Index(patch.triangles.size()), sizes);
 
   std::vector<bool> must_stay(patch.points.size(), false);
   for (Index v : patch.fixed) must_stay[v] = true;
+  for (Index v : touched) must_stay[v] = true;
   for (const auto& [a, b] : patch.constraints) must_stay[a] = must_stay[b] = true;
 
   std::vector<Region> regions(sizes.size());

@@ -35,7 +35,8 @@ std::optional<Plane> find_plane(const Patch& patch);
 
 /// Triangles that are joined through edges that are no constraints, as a manifold with boundary: a node at which
 /// several fans of triangles meet (a slit, a pinched boundary) becomes one vertex for each fan, so that
-/// constraints need no care afterwards. They are boundary, and boundary never moves.
+/// constraints need no care afterwards. They are boundary, and boundary never moves; a fan that goes all round its node
+/// has it among `fixed`, or what touches it there would be left behind.
 struct Region {
   std::vector<Vec2> points;
   std::vector<Index> node;  ///< row of Patch::points of each vertex

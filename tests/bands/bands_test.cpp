@@ -138,6 +138,21 @@ TEST_CASE("bands: rings and strips with different numbers of nodes have no poor 
   CHECK(mean > 0.908);
 }
 
+TEST_CASE("bands: a thin strip whose ends have a node in their middles is two rows, not one of leaning quads") {
+  constexpr double kThick = 0.08;
+  for (int edges : {2, 3, 6, 10})
+    for (double lean : {0.0, kThick}) {
+      CAPTURE(edges);
+      CAPTURE(lean);
+      std::vector<Vec2> lower, upper{{lean / 2 - 0.1 * kThick, kThick / 2}};
+      for (int k = 0; k <= edges; ++k) lower.emplace_back(k, 0), upper.emplace_back(k + lean, kThick);
+      upper.emplace_back(edges + lean / 2 + 0.1 * kThick, kThick / 2);
+      const Figures result = converted(zipped(lower, upper, false));
+      CHECK(result.quads == std::size_t(2 * edges));
+      CHECK(result.least > 0.5);
+    }
+}
+
 TEST_CASE("bands: a region that is thick, or has five corners, a fixed node inside or an odd boundary, is no band") {
   const auto finds = [](const Patch& patch) {
     const Region region = region_of(patch);

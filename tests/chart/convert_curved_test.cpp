@@ -87,6 +87,25 @@ TEST_CASE("curved: closed surfaces without a line become quads alone") {
   }
 }
 
+TEST_CASE("curved: closed surfaces that touch at a node still do so as quads") {
+  Rng rng(1);
+  const Patch one = sphere(0.5, rng);
+  const Index count = Index(one.points.size());
+  const auto along = [&](double sign) {
+    const auto less = [&](const Vector3d& a, const Vector3d& b) { return sign * a.x() < sign * b.x(); };
+    return Index(std::max_element(one.points.begin(), one.points.end(), less) - one.points.begin());
+  };
+  const Index right = along(1), left = along(-1);
+  Patch both = one;
+  for (const Vector3d& p : one.points) both.points.push_back(p - one.points[left] + one.points[right]);
+  for (const auto& t : one.triangles) {
+    auto& copy = both.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) copy[i] = t[i] == left ? right : t[i] + count;
+  }
+  drop_unused(both);
+  check(both, convert(both).mesh);
+}
+
 TEST_CASE("curved: the same bytes on one thread and two, and when it is called again") {
   Rng rng(21);
   for (const Patch& patch :

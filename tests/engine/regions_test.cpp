@@ -167,6 +167,25 @@ TEST_CASE("regions: triangles that meet at a node only are two regions, or one w
   }
 }
 
+TEST_CASE("regions: where something touches a node inside, it has a vertex of its own, and the node stays") {
+  Patch patch = plate(2, 2);
+  patch.points.insert(patch.points.end(), {{0.5, 0.5, 1}, {1.5, 0.5, 1}, {1.5, 1.5, 1}, {0.5, 1.5, 1}});
+  SUBCASE("a triangle") { patch.triangles.push_back({4, 10, 11}); }
+  SUBCASE("a triangle that comes first") { patch.triangles.insert(patch.triangles.begin(), {4, 10, 11}); }
+  SUBCASE("a closed fan") {
+    for (Index i = 0; i < 4; ++i) patch.triangles.push_back({4, 9 + i, 9 + (i + 1) % 4});
+  }
+  SUBCASE("a quad") { patch.quads.push_back({4, 10, 11, 12}); }
+  const auto regions = cut(patch);
+  REQUIRE(regions.size() == (patch.quads.empty() ? 2 : 1));
+  for (const Region& region : regions) {
+    REQUIRE(copies(region, 4) == 1);
+    mesh_of(region);
+    REQUIRE(region.fixed.size() == 1);
+    CHECK(region.node[region.fixed[0]] == 4);
+  }
+}
+
 TEST_CASE("regions: every triangle and every side is in exactly one region, on random constraints") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);

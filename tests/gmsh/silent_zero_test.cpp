@@ -82,6 +82,25 @@ TEST_CASE("silent zero: a file without a quad is not written") {
   }
 }
 
+TEST_CASE("silent zero: groups of volumes are meant for -3, and leave nothing out of a mesh of surfaces") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo",
+             std::string("SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nMesh.MeshSizeMax = 0.5;\n") +
+                 "Physical Volume(\"solid\", 7) = {1};\n");
+  for (const std::string name : {"out.msh", "out.vtk", "out.msh2"}) {
+    CAPTURE(name);
+    const Result result = run_qmorph({directory / "in.geo", "-o", directory / name});
+    CHECK(result.status == 0);
+    CHECK(mentions(result.err, "warning: only volumes are in physical groups: all elements are written"));
+    CHECK(!mentions(result.err, "not written"));
+    std::size_t quads = 0;
+    for (const auto& entity : read_snapshot(directory / name).mesh.entities)
+      if (const auto* block = entity.block(adapter::kQuad4)) quads += block->tags.size();
+    CHECK(quads >= 24);
+  }
+  CHECK(mentions(read_file(directory / "out.msh"), "\"solid\""));
+}
+
 TEST_CASE("silent zero: triangles that share no nodes are reported, with how many nodes could be merged") {
   const TemporaryDirectory directory;
   const Grid grid{.n = 6};

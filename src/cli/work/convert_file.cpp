@@ -48,6 +48,7 @@ class Conversion {
 
  private:
   void open();
+  void see_that_quads_will_be_written();
   void make_quads();
   void see_what_will_be_written();
   int write();
@@ -75,6 +76,7 @@ int Conversion::run() {
   adapter::Session session(request_.gmsh_arguments);
   begin_session(call_, session);
   open();
+  see_that_quads_will_be_written();
   make_quads();
   if (model_.surfaces.empty()) {
     call_.err << "qmorph: nothing to convert: " << name_of_input(request_) << " has no surface with elements\n";
@@ -94,6 +96,17 @@ void Conversion::open() {
   adapter::check_format(plan_, call_.names());
   opened_ = open_for_conversion(call_, plan_);
   if (!request_.report.empty()) before_ = read_scene();
+}
+
+/// Before there is work.
+void Conversion::see_that_quads_will_be_written() {
+  if (request_.dimension >= 3) return;  // volumes need all surfaces
+  const adapter::MshWish wish{request_.msh_version, request_.binary};
+  if (adapter::only_volumes_are_grouped(plan_, opened_, wish)) {
+    call_.warn("only volumes are in physical groups: all elements are written, as with -setnumber Mesh.SaveAll 1");
+    adapter::set_option("Mesh.SaveAll", 1);
+  }
+  if (adapter::leaves_out_every_surface(plan_, opened_, wish)) throw no_quad_written(plan_.name);
 }
 
 void Conversion::make_quads() {

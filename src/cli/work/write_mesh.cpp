@@ -38,16 +38,19 @@ bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const
   return same_format && untouched;
 }
 
+InputError no_quad_written(const std::string& output) {
+  return InputError(
+      fmt::format("no surface is in a physical group, and there are groups: {} would have no quad; add Physical "
+                  "Surface, or -setnumber Mesh.SaveAll 1",
+                  output));
+}
+
 void keep_written(const std::vector<int>& unwritten, const std::string& output, ModelReport& model) {
   const auto is_unwritten = [&](const SurfaceReport& surface) {
     return std::count(unwritten.begin(), unwritten.end(), surface.tag) > 0;
   };
   if (std::erase_if(model.surfaces, is_unwritten) == 0) return;
-  if (model.surfaces.empty())
-    throw InputError(
-        fmt::format("no surface is in a physical group, and there are groups: {} would have no quad; add Physical "
-                    "Surface, or -setnumber Mesh.SaveAll 1",
-                    output));
+  if (model.surfaces.empty()) throw no_quad_written(output);
   std::vector<int> measured;
   for (const SurfaceReport& surface : model.surfaces)
     if (surface.outcome != SurfaceOutcome::left) measured.push_back(surface.tag);

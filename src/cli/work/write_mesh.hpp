@@ -21,6 +21,9 @@ struct ReaderError {
 bool is_as_it_was(const Request& request, const adapter::OutputPlan& plan, const adapter::OpenedModel& opened,
                   const ModelReport& model);
 
+/// No surface with elements is in a physical group, and there are groups.
+InputError no_quad_written(const std::string& output);
+
 /// Takes out of the figures what will not be in the file. \throws InputError if nothing is left
 void keep_written(const std::vector<int>& unwritten, const std::string& output, ModelReport& model);
 

@@ -359,6 +359,22 @@ std::vector<int> find_unwritten_surfaces(const OutputPlan& plan, const OpenedMod
   return surfaces;
 }
 
+bool leaves_out_every_surface(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
+  const std::vector<int> unwritten = find_unwritten_surfaces(plan, opened, wish);
+  ::gmsh::vectorpair surfaces;
+  ::gmsh::model::getEntities(surfaces, 2);
+  return !unwritten.empty() && std::none_of(surfaces.begin(), surfaces.end(), [&](const auto& surface) {
+    return std::count(unwritten.begin(), unwritten.end(), surface.second) == 0 && has_elements(2, surface.second);
+  });
+}
+
+bool only_volumes_are_grouped(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish) {
+  ::gmsh::vectorpair of_surfaces, of_volumes;
+  ::gmsh::model::getPhysicalGroups(of_surfaces, 2);
+  ::gmsh::model::getPhysicalGroups(of_volumes, 3);
+  return of_surfaces.empty() && !of_volumes.empty() && leaves_out_ungrouped(plan, opened, wish);
+}
+
 void write_model(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish, StagedFile& file) {
   const bool keep_encoding = plan.format.is_msh && opened.msh.version != 0;
   const bool binary = wish.binary.value_or(keep_encoding ? opened.msh.binary : get_option("Mesh.Binary") != 0);
