@@ -118,7 +118,6 @@ std::vector<Loop> boundary_of(const Region& region, std::size_t most) {
 }
 
 std::optional<Band> find_band(const Region& region) {
-  if (region.boundary_sides % 2 != 0) return {};
   const std::vector<Loop> loops = boundary_of(region, 2);
   if (loops.empty() || loops.size() > 2) return {};
   std::size_t nodes = 0;
