@@ -108,7 +108,8 @@ class Planner {
     double& target = (i == i_ ? now_ : ahead_)[s];
     if (cost >= target) return;
     target = cost;
-    came_[i * kStates + s] = std::uint16_t(1 + step.kind + kKinds * (step.above + 2 * (step.level + kMostRows * from_mode)));
+    came_[i * kStates + s] =
+        std::uint16_t(1 + step.kind + kKinds * (step.above + 2 * (step.level + kMostRows * from_mode)));
   }
 
   void leave(Index j) {
