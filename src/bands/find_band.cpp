@@ -121,7 +121,6 @@ std::vector<Loop> boundary_of(const Region& region) {
 }
 
 std::optional<Band> find_band(const Region& region, const BandLimits& limits) {
-  if (region.boundary_sides % 2 != 0) return {};
   const std::vector<Loop> loops = boundary_of(region);
   if (loops.empty() || loops.size() > 2) return {};
   std::size_t nodes = 0;

@@ -34,7 +34,7 @@ constexpr BandLimits kAnyBand{2, true};
 /// The boundary, the region on the left of each loop.
 std::vector<Loop> boundary_of(const Region& region);
 
-/// Nothing if the region is no band, or if it is odd. How thick it may be is for find_facing() to say. Cost: linear.
+/// Nothing if the region is no band. How thick it may be is for find_facing() to say. Cost: linear.
 std::optional<Band> find_band(const Region& region, const BandLimits& limits = {});
 
 /// For each node of `lower` the node of `upper` that it faces: the nearest one, never one before that of the node

@@ -74,8 +74,16 @@ class Layer {
       return;
     }
     if (!step.above) std::reverse(rung_.begin(), rung_.end());
-    change(step);
+    step.kind == Step::wedge ? wedge(step.above) : change(step);
     if (!step.above) std::reverse(rung_.begin(), rung_.end());
+  }
+
+  /// A triangle at the end of the rung.
+  void wedge(bool above) {
+    const Index old = rung_.back(), next = above ? band_.upper[at_upper_] : band_.lower[at_lower_];
+    const Index tip = rung_[rung_.size() - 2];
+    faces_.push_back({tip, above ? next : old, above ? old : next, kNone});
+    rung_.back() = next;
   }
 
   /// The rung stays up to `level`, and is new from there to the next node of the far side.

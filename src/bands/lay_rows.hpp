@@ -10,8 +10,9 @@
 namespace qmorph::bands {
 
 /// The quads of a thin band, in rows from one side to the other. Where its sides have different numbers of nodes, rows
-/// begin and end on the way. Boundary nodes keep their numbers; those inside are half-way between the sides, and want
-/// smoothing. Nothing if the sides are too far apart, or there is no way without a triangle. Cost: linear.
+/// begin and end on the way. An odd boundary gets one triangle. Boundary nodes keep their numbers; those inside are
+/// half-way between the sides, and want smoothing. Nothing if the sides are too far apart, or no plan is found. Cost:
+/// linear.
 std::optional<kernel::Mesh> lay_rows(const Band& band, const std::vector<Vec2>& points, const RowCosts& costs);
 
 }  // namespace qmorph::bands

@@ -14,10 +14,12 @@ namespace {
 
 /// Of e times as many rows as are wanted, or as few, in quads of scaled Jacobian 0.
 constexpr double kAspect = 0.05;
+constexpr unsigned kKinds = Step::wedge + 1;
 /// How many nodes a rung may lean, beyond the node that faces.
 constexpr int kLag = 3, kWidth = 2 * kLag + 1;
 
-/// How a rung was reached: by a row (or it is the first), by a change to fewer rows, by one to more on either side.
+/// How a rung was reached: by a row (or it is the first), by a change to fewer rows or a triangle, by one to more on
+/// either side.
 enum Mode : std::uint8_t { kRow, kFewer, kMore };
 constexpr int kModes = kMore + 2 * kMostRows;
 constexpr int more_mode(bool above, int level) { return kMore + 2 * level + above; }
@@ -30,6 +32,13 @@ double badness(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return sine > 0 ? 1 - sine : 1 - kInverted * sine;
 }
 
+/// The same of a triangle; none if it is equilateral.
+double badness(const Vec2& a, const Vec2& b, const Vec2& c) {
+  constexpr double kEquilateral = 3.4641016151377544;  // squared sides over twice the area
+  const double doubled_area = cross(b - a, c - a);
+  return 1 - kEquilateral * doubled_area / ((b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
+}
+
 class Planner {
  public:
   Planner(const Rails& rails, const RowCosts& costs)
@@ -37,6 +46,7 @@ class Planner {
         costs_(costs),
         b_(rails.lower),
         t_(rails.upper),
+        is_odd_((b_.size() + t_.size() + std::size_t(rails.first_rows + rails.last_rows)) % 2 != 0),
         came_(b_.size() * kStates),
         now_(kStates),
         ahead_(kStates) {}
@@ -58,8 +68,11 @@ class Planner {
   }
 
  private:
-  static constexpr int kStates = kWidth * kMostRows * kModes;
-  static int state(int column, int rows, int mode) { return (column * kMostRows + rows - 1) * kModes + mode; }
+  static constexpr int kStates = 2 * kWidth * kMostRows * kModes;
+  /// Before the triangle of an odd band, and after it.
+  static int state(int column, int rows, int mode, bool is_after = false) {
+    return ((is_after * kWidth + column) * kMostRows + rows - 1) * kModes + mode;
+  }
   /// The column of (i, j), or -1.
   int column(std::size_t i, std::size_t j) const {
     if (i >= b_.size() || j >= t_.size()) return -1;
@@ -91,25 +104,35 @@ class Planner {
   void reach(std::size_t i, std::size_t j, int rows, int mode, double cost, const Step& step, int from_mode) {
     const int c = column(i, j);
     if (c < 0 || rows > most_rows(i)) return;
-    const int s = state(c, rows, mode);
+    const int s = state(c, rows, mode, is_after_ || step.kind == Step::wedge);
     double& target = (i == i_ ? now_ : ahead_)[s];
     if (cost >= target) return;
     target = cost;
-    came_[i * kStates + s] = std::uint16_t(1 + step.kind + 3 * (step.above + 2 * (step.level + kMostRows * from_mode)));
+    came_[i * kStates + s] =
+        std::uint16_t(1 + step.kind + kKinds * (step.above + 2 * (step.level + kMostRows * from_mode)));
   }
 
   void leave(Index j) {
+    for (bool is_after : {false, true}) {
+      if (is_after && !is_odd_) break;
+      is_after_ = is_after;
+      leave_for_all(j);
+    }
+  }
+
+  void leave_for_all(Index j) {
     const int c = column(i_, j);
     for (int rows = 1; rows <= kMostRows; ++rows) {
       double row_cost = -1;
       for (int mode = 0; mode < kModes; ++mode) {
-        const double cost = now_[state(c, rows, mode)];
+        const double cost = now_[state(c, rows, mode, is_after_)];
         if (cost == kInfinite) continue;
         if (i_ + 1 < b_.size() && j + 1 < t_.size()) {
           if (row_cost < 0) row_cost = cost_of_row(j, rows);
           reach(i_ + 1, j + 1, rows, kRow, cost + row_cost, {}, mode);
         }
         change(j, rows, mode, cost);
+        if (is_odd_ && !is_after_ && mode == kRow) wedge(j, rows, cost);
       }
     }
   }
@@ -132,6 +155,17 @@ class Planner {
               {Step::fewer, above, (unsigned char)level}, mode);
       }
     }
+  }
+
+  /// A triangle of an edge of one side and the next node of the rung, which has five edges then if it is inside.
+  void wedge(Index j, int rows, double cost) {
+    const double share = 1.0 / rows, change = rows > 1 ? costs_.change : 0;
+    if (column(i_ + 1, j) >= 0)
+      reach(i_ + 1, j, rows, kFewer, cost + change + badness(b_[i_], b_[i_ + 1], on_rung(i_, j, share)),
+            {Step::wedge, false, 0}, kRow);
+    if (column(i_, j + 1) >= 0)
+      reach(i_, j + 1, rows, kFewer, cost + change + badness(t_[j + 1], t_[j], on_rung(i_, j, 1 - share)),
+            {Step::wedge, true, 0}, kRow);
   }
 
   /// Of a turn between rungs (i, j) and (i2, j2), one of which has `rows` rows and the other one more: the worst of the
@@ -167,16 +201,17 @@ class Planner {
     const int last = column(b_.size() - 1, t_.size() - 1);
     if (last < 0) return plan;
     int rows = rails_.last_rows, mode = kRow;
-    plan.cost = now_[state(last, rows, mode)];
+    bool is_after = is_odd_;
+    plan.cost = now_[state(last, rows, mode, is_after)];
     if (plan.cost == kInfinite) return plan;
     plan.first_rows = Index(rails_.first_rows);
     std::size_t i = b_.size() - 1, j = t_.size() - 1;
     while (i > 0 || j > 0) {
-      unsigned code = came_[i * kStates + state(column(i, j), rows, mode)];
+      unsigned code = came_[i * kStates + state(column(i, j), rows, mode, is_after)];
       if (code == 0) return {};
       --code;
       Step step;
-      step.kind = Step::Kind(code % 3), code /= 3;
+      step.kind = Step::Kind(code % kKinds), code /= kKinds;
       step.above = code % 2, code /= 2;
       step.level = (unsigned char)(code % kMostRows), mode = int(code / kMostRows);
       plan.steps.push_back(step);
@@ -186,6 +221,7 @@ class Planner {
         step.above ? --j : --i;
       if (step.kind == Step::more) --rows;
       if (step.kind == Step::fewer) ++rows;
+      if (step.kind == Step::wedge) is_after = false;
     }
     std::reverse(plan.steps.begin(), plan.steps.end());
     return plan;
@@ -194,6 +230,8 @@ class Planner {
   const Rails& rails_;
   const RowCosts& costs_;
   const std::vector<Vec2>&b_, &t_;
+  bool is_odd_;
+  bool is_after_ = false;  ///< the triangle
   std::size_t i_ = 0;
   std::vector<std::uint16_t> came_;
   std::vector<double> now_, ahead_;

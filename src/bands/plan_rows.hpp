@@ -12,9 +12,10 @@ namespace qmorph::bands {
 /// From one rung of a band to the next. A rung has a node on each side, and one between any two rows.
 /// `row`: a column of quads, along an edge of both sides. The others pass an edge of one side alone: a column comes in
 /// there, `level` rows from the other side it turns and goes on as a row of its own (`more`), or a row does so the
-/// other way (`fewer`). That leaves a node with three edges and one with five.
+/// other way (`fewer`). That leaves a node with three edges and one with five. Or there is a triangle on that edge, and
+/// the other nodes of the rung stay (`wedge`): once, if the boundary is odd.
 struct Step {
-  enum Kind : unsigned char { row, more, fewer } kind = row;
+  enum Kind : unsigned char { row, more, fewer, wedge } kind = row;
   bool above = false;  ///< along `upper`
   unsigned char level = 0;
 };

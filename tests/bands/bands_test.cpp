@@ -81,19 +81,18 @@ Figures figures(const QuadMesh& mesh) {
 Figures converted(const Patch& patch) {
   const Conversion conversion = convert(patch);
   CHECK(broken_invariants(patch, conversion.mesh) == std::vector<std::string>());
-  CHECK(conversion.mesh.triangles.empty());
+  CHECK(conversion.mesh.triangles.size() <= 1);  // the invariants say when there is one
   return figures(conversion.mesh);
 }
 
 }  // namespace
 
-TEST_CASE("bands: whatever the numbers of nodes, rows of quads alone are laid, and the boundary stays") {
+TEST_CASE("bands: whatever the numbers of nodes, rows are laid, one triangle if they are odd; the boundary stays") {
   Rng rng(1);
   for (int trial = 0; trial < 200; ++trial) {
     CAPTURE(trial);
     const int n = rng.range(12, 90);
-    int m = int(n * rng.between(1, 2)) & ~1;
-    m += (n + m) % 2;
+    const int m = int(n * rng.between(1, 2));
     const double gap = rng.between(0.3, 3);
     const bool is_ring = rng.chance(0.5), more_outside = rng.chance(0.5);
     const Patch patch = is_ring ? ring(more_outside ? n : m, more_outside ? m : n, gap, rng.between(0, 6.0 / m))
@@ -105,7 +104,7 @@ TEST_CASE("bands: whatever the numbers of nodes, rows of quads alone are laid, a
       const auto mesh = bands::lay_rows(*band, region.points, costs);
       if (!mesh) continue;
       CHECK(kernel::find_defects(*mesh, false) == std::vector<std::string>());
-      CHECK(count_quads(*mesh) == count(*mesh).faces);
+      CHECK(count_quads(*mesh) + std::size_t((n + m) % 2) == count(*mesh).faces);
       CHECK(boundary_of(*mesh) == boundary_of(kernel::Mesh(region.points, region.triangles, region.open)));
     }
   }
@@ -153,7 +152,34 @@ TEST_CASE("bands: a thin strip whose ends have a node in their middles is two ro
     }
 }
 
-TEST_CASE("bands: a region that is thick, or has five corners, a fixed node inside or an odd boundary, is no band") {
+TEST_CASE("bands: rings and strips with odd boundaries have no poor quad besides their triangle") {
+  Rng rng(3);
+  constexpr int kTrials = 20;
+  double least = 0, mean = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    CAPTURE(trial);
+    const int n = rng.range(20, 60), m = n + 1 + 2 * rng.range(0, n / 8);
+    const double gap = rng.between(0.8, 1.8);
+    for (const Patch& patch : {ring(n, m, gap, rng.between(0, 6.0 / m)), strip(n, m, gap)}) {
+      const Figures one = converted(patch);
+      CHECK(one.least > 0.4);
+      least += one.least / (2 * kTrials), mean += one.mean / (2 * kTrials);
+    }
+  }
+  CAPTURE(least);
+  CAPTURE(mean);
+  // The front alone comes to 0.703 and 0.916.
+  CHECK(least > 0.74);
+  CHECK(mean > 0.92);
+}
+
+TEST_CASE("bands: an odd ring of one row has a triangle and nothing else that is not a row") {
+  const Figures result = converted(ring(30, 31, 1, 0));
+  CHECK(result.quads == 30);
+  CHECK(result.least > 0.7);
+}
+
+TEST_CASE("bands: a region that is thick, or has five corners or a fixed node inside, is no band") {
   const auto finds = [](const Patch& patch) {
     const Region region = region_of(patch);
     const auto band = bands::find_band(region);
@@ -161,7 +187,6 @@ TEST_CASE("bands: a region that is thick, or has five corners, a fixed node insi
   };
   CHECK(finds(ring(40, 44, 2, 0)));
   CHECK_FALSE(finds(ring(40, 44, 6, 0)));
-  CHECK_FALSE(finds(ring(40, 43, 2, 0)));
   CHECK(finds(strip(20, 22, 1)));
   Patch corner = strip(20, 22, 1);
   corner.points[10].y() -= 0.04;
