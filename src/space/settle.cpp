@@ -227,10 +227,10 @@ class Settling {
 
   MeshOnSurface& mesh_;
   const SmoothingOptions& options_;
-  std::vector<Seat> seats_;      ///< by face
+  std::vector<Seat> seats_;  ///< by face
   FlatShapes flat_;
-  double flat_sines_ = 0;    ///< where the node is now
-  std::vector<Seat> tried_;  ///< of the faces around a node, if it stays
+  double flat_sines_ = 0;        ///< where the node is now
+  std::vector<Seat> tried_;      ///< of the faces around a node, if it stays
   std::vector<char> is_active_;  ///< by node: something around has moved since it was tried
   std::vector<MeshOnSurface::Place> start_;
   std::vector<Vector3d> way_;  ///< by node: from the start
