@@ -8,8 +8,8 @@
 
 namespace qmorph::space {
 
-/// The faces around a node inside, laid into a plane once: what a move does to their shapes is nearly the same in space,
-/// where finding out costs ten times as much.
+/// The faces around a node inside, laid into a plane once: what a move does to their shapes is nearly the same in
+/// space, where finding out takes ten times as long.
 class FlatShapes {
  public:
   /// `axis_u`, `axis_v`: of the plane, counter-clockwise as the faces are.
