@@ -26,12 +26,17 @@ constexpr double kCrumb = 0.1;
 /// cut again, they would be all interface.
 constexpr double kMostDistortion = 1.2, kMostOfFew = 2;
 constexpr double kMany = 200, kFew = 30;
+/// Of a part with very many faces, quads are small beside the surface's curves, and smoothing in space makes up for
+/// more: fewer cuts leave fewer irregular nodes, and take less time.
+constexpr double kMostOfVeryMany = 1.3;
+constexpr std::size_t kVeryMany = 1500;
 /// Faces of a part that is looked at before it is laid flat, which costs more.
 constexpr std::size_t kLarge = 500;
 /// Of one that is judged by a few of its points, if that will do.
 constexpr std::size_t kVeryLarge = 2000;
 
 double most_distortion(std::size_t faces) {
+  if (faces >= kVeryMany) return kMostOfVeryMany;
   const double few = std::clamp((kMany - double(faces)) / (kMany - kFew), 0.0, 1.0);
   return kMostDistortion + few * (kMostOfFew - kMostDistortion);
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "space/flat_shapes.hpp"
+
 namespace qmorph::space {
 namespace {
 
@@ -15,11 +17,13 @@ constexpr double kNear = 0.01;
 /// Distances of the centres around a node that are less in all (edges): the surface is flat there.
 constexpr double kFlat = 1e-3;
 /// Sines of corners that one edge's distance of a centre is worth.
-constexpr double kShapeCost = 0.19;
+constexpr double kShapeCost = 0.184;
 /// With less to gain than this for each face around a node, on average, what can be gained is not worth the time.
 constexpr double kSettled = 0.01;
 /// How far off is what slopes say about the distances around a node, in all (edges).
 constexpr double kDoubt = 2e-4;
+/// And the tangent plane about the shapes there, besides.
+constexpr double kDoubtOfShapes = 4e-4;
 constexpr double kRounding = 1e-9;  ///< of such sums
 
 class Settling {
@@ -74,7 +78,7 @@ class Settling {
   struct Around {
     Vector3d slope = Vector3d::Zero();
     Vector3d ways = Vector3d::Zero();  ///< mean of those of the neighbours
-    double cost = 0, distance = 0, faces = 0;
+    double cost = 0, distance = 0, sines = 0, faces = 0;
     double least;     ///< sine of the worst face, or what is good enough
     double edge = 0;  ///< mean length
     Index side = kNone;
@@ -94,6 +98,7 @@ class Settling {
       sum.slope += seat.slope;
       sum.cost += seat.cost();
       sum.distance += seat.distance;
+      sum.sines += seat.sine;
       sum.least = std::min(sum.least, seat.sine);
       sum.ways += way_[other];
       sum.edge += (mesh_.point(other) - mesh_.point(v)).norm();
@@ -102,6 +107,35 @@ class Settling {
     });
     if (sum.faces > 0) sum.edge /= sum.faces, sum.ways /= sum.faces;
     return sum;
+  }
+
+  /// Of a node's tangent plane; the first along an edge.
+  struct Axes {
+    Vector3d along, across;
+  };
+  Axes axes_at(Index v, Index side) const {
+    const Vector3d& up = mesh_.surface().normal(mesh_.mesh().on[v]);
+    const Vector3d edge = mesh_.point(mesh_.node(mesh_.next(side))) - mesh_.point(v);
+    const Vector3d along = (edge - edge.dot(up) * up).normalized();
+    return {along, up.cross(along)};
+  }
+
+  /// Whether slopes and the tangent plane leave a move any chance. flat_ has looked around v.
+  bool is_promising(Index v, const Axes& axes, const Vector3d& way, const Around& here) const {
+    double distances = 0;
+    mesh_.for_sides_around(v, [&](Index side) { distances += expected_distance(seats_[side / 4], way); });
+    const double gain = flat_.sines({way.dot(axes.along), way.dot(axes.across)}) - flat_sines_;
+    return !(distances - kShapeCost * (here.sines + gain) >= here.cost + kDoubt + kDoubtOfShapes);
+  }
+
+  void look_at_shapes(Index v, const Axes& axes) {
+    flat_.look_around(mesh_, v, axes.along, axes.across);
+    flat_sines_ = flat_.sines(Vec2::Zero());
+  }
+
+  /// If a corner moves.
+  static double expected_distance(const Seat& seat, const Vector3d& way) {
+    return seat.edge > 0 ? std::max(0.0, seat.distance + 0.25 * seat.slope.dot(way) / seat.edge) : 0;
   }
 
   /// Sends a node downhill, half as far as its neighbours have come besides: where all go the same way no shape
@@ -125,12 +159,14 @@ class Settling {
     const Around here = around(v);
     if (here.is_left_alone()) return;
     const MeshOnSurface::Place before = mesh_.place(v);
-    const Vector3d& up = mesh_.surface().normal(before.triangle);
-    const Vector3d edge = mesh_.point(mesh_.node(mesh_.next(here.side))) - before.point;
-    const Vector3d along = (edge - edge.dot(up) * up).normalized(), across = up.cross(along);
-    for (const Vector3d& way : {along, across, Vector3d(-along), Vector3d(-across)}) {
+    const Axes axes = axes_at(v, here.side);
+    const double length = step * here.edge;
+    look_at_shapes(v, axes);
+    for (const Vector3d& way : {Vector3d(length * axes.along), Vector3d(length * axes.across),
+                                Vector3d(-length * axes.along), Vector3d(-length * axes.across)}) {
+      if (!is_promising(v, axes, way, here)) continue;
       mesh_.move(v, before);
-      mesh_.move(v, mesh_.foot(v, before.point + step * here.edge * way));
+      mesh_.move(v, mesh_.foot(v, before.point + way));
       if (!is_better(v, before.point, here)) continue;
       auto seat = tried_.begin();
       mesh_.for_sides_around(v, [&](Index side) { seats_[side / 4] = *seat++; });
@@ -142,8 +178,11 @@ class Settling {
   /// All of the way, or less of it. Steps that are shorter than `least_way` wake nobody.
   void try_ways(Index v, const Vector3d& way, double least_way, const Around& here) {
     const MeshOnSurface::Place before = mesh_.place(v);
+    const Axes axes = axes_at(v, here.side);
+    look_at_shapes(v, axes);
     for (const double share : {1.0, 0.5, 0.25}) {
       const Vector3d tried = way_[v] + share * (way - way_[v]);
+      if (!is_promising(v, axes, start_[v].point + tried - before.point, here)) continue;
       mesh_.move(v, start_[v]);
       mesh_.move(v, mesh_.foot(v, start_[v].point + tried));
       if (!is_better(v, before.point, here)) continue;
@@ -171,9 +210,7 @@ class Settling {
       const Seat& seat = seats_[side / 4];
       const double sine = mesh_.sure_sine(side / 4);
       good = sine >= here.least;
-      if (seat.edge > 0)
-        expected += std::max(0.0, seat.distance + 0.25 * seat.slope.dot(mesh_.point(v) - from) / seat.edge);
-      expected -= kShapeCost * sine;
+      expected += expected_distance(seat, mesh_.point(v) - from) - kShapeCost * sine;
       tried_.emplace_back().sine = sine;
     });
     if (!good || expected >= here.cost + kDoubt) return false;
@@ -190,7 +227,9 @@ class Settling {
 
   MeshOnSurface& mesh_;
   const SmoothingOptions& options_;
-  std::vector<Seat> seats_;      ///< by face
+  std::vector<Seat> seats_;  ///< by face
+  FlatShapes flat_;
+  double flat_sines_ = 0;        ///< where the node is now
   std::vector<Seat> tried_;      ///< of the faces around a node, if it stays
   std::vector<char> is_active_;  ///< by node: something around has moved since it was tried
   std::vector<MeshOnSurface::Place> start_;
