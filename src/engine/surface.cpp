@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/allowance.hpp"
+#include "engine/budget.hpp"
 #include "engine/canonical/work.hpp"
 #include "engine/collector.hpp"
 #include "parallel/for_each.hpp"
@@ -62,8 +62,8 @@ SurfaceError with_node(const SurfaceError& error, const Surface& surface, const 
   return SurfaceError(error.what(), details);
 }
 
-SurfaceWork work_and_measure(const Patch& patch, const Options& options, const PatchWork& work) {
-  SurfaceWork result = canonical::work_on_numbered(patch, options, work);
+SurfaceWork work_and_measure(const Patch& patch, const Options& options, Budget& budget, const PatchWork& work) {
+  SurfaceWork result = canonical::work_on_numbered(patch, options, budget, work);
   const QuadMesh& mesh = result.conversion.mesh;
   result.conversion.report.sizes = directed_sizes(patch, mesh.points, mesh.quads);
   if (wants_stages(options)) result.record.size_ratios = size_ratios(patch, mesh);
@@ -78,26 +78,32 @@ Surface::Surface(const Patch& surface, const Plane& its_plane) : patch(surface),
   regions = cut_into_regions(patch, plane_points);
 }
 
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work) {
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budget& budget, const Work& work) {
   std::vector<kernel::Mesh> meshes(surface.regions.size());
   std::vector<ConversionReport> reports(meshes.size());
   std::vector<Record> records(meshes.size());
   std::vector<ProgressCallback> progress;
   const std::size_t triangles = surface.patch.triangles.size();
   const parallel::SharedProgress shared(options.progress, double(triangles));
-  for (const Region& region : surface.regions) progress.push_back(shared.part(double(region.triangles.size())));
+  std::vector<Budget> budgets;
+  const double allowed = std::min(allowance(triangles), budget.left_for_another());
+  for (const Region& region : surface.regions) {
+    const auto size = double(region.triangles.size());
+    progress.push_back(shared.part(size));
+    budgets.emplace_back(share_of(allowed, size, double(triangles), meshes.size()));
+  }
   parallel::for_each_index(meshes.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    const double allowed = part_of(allowance(triangles), surface.regions[r].triangles.size(), triangles, meshes.size());
     try {
-      meshes[r] = work(r, own, allowed, reports[r], records[r]);
+      meshes[r] = work(r, own, budgets[r], reports[r], records[r]);
     } catch (const SurfaceError& error) {
       throw with_node(error, surface, surface.regions[r]);
     }
   });
   shared.finish();
+  for (const Budget& own : budgets) budget.spend(own.spent());
 
   SurfaceWork result;
   ConversionReport& report = result.conversion.report;
@@ -115,7 +121,8 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, cons
 
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result;
-  parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, work); });
+  Budget budget(budget_of_call(weight(patch)));
+  parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, budget, work); });
   if (options.observer) result.record.tell(*options.observer, 0);
   return std::move(result.conversion);
 }
@@ -130,7 +137,10 @@ class Patches {
     double total = 0;
     for (const Patch* patch : patches) total += weight(*patch);
     shared_ = parallel::SharedProgress(options.progress, total);
-    for (const Patch* patch : patches) progress_.push_back(shared_.part(weight(*patch)));
+    for (const Patch* patch : patches) {
+      progress_.push_back(shared_.part(weight(*patch)));
+      budgets_.emplace_back(share_of(budget_of_call(total), weight(*patch), total, patches.size()));
+    }
   }
 
   std::vector<Outcome> run() {
@@ -151,7 +161,7 @@ class Patches {
     std::optional<NumberedObserver> numbered;
     if (options_.observer) own.observer = &numbered.emplace(*options_.observer, i);
     try {
-      SurfaceWork result = work_and_measure(*patches_[i], own, work_);
+      SurfaceWork result = work_and_measure(*patches_[i], own, budgets_[i], work_);
       outcomes_[i].conversion = std::move(result.conversion);
       records_[i] = std::move(result.record);
     } catch (const SurfaceError& error) {
@@ -167,6 +177,7 @@ class Patches {
   std::vector<SurfaceRecord> records_;
   parallel::SharedProgress shared_{{}, 0};
   std::vector<ProgressCallback> progress_;
+  std::vector<Budget> budgets_;
 };
 
 }  // namespace

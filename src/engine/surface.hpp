@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "engine/budget.hpp"
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
 #include "kernel/mesh.hpp"
@@ -33,16 +34,16 @@ struct SurfaceWork {
 };
 
 /// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much
-/// work as is allowed (allowance.hpp).
-using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, double allowed,
+/// work as its budget has left.
+using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, Budget& budget,
                                         ConversionReport& report, Record& record)>;
 
-/// Works on all regions, side by side, and puts the results together, as they were after each stage, too, if the
-/// observer wants that.
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work);
+/// Works on all regions, side by side, each with its share of the surface's budget, and puts the results together, as
+/// they were after each stage, too, if the observer wants that.
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budget& budget, const Work& work);
 
-/// Makes a patch into quads.
-using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options)>;
+/// Makes a patch into quads, for about as much work as its budget has left.
+using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options, Budget& budget)>;
 
 /// `work` on one patch, on the threads that the options allow.
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);
