@@ -27,6 +27,7 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     progress.push_back(shared.part(size));
     budgets.emplace_back(share_of(budget.left_for_another(), size, double(total), regions.size()));
   }
+  const SpentInAll spent_in_all(budget, budgets);
   parallel::for_each_index(regions.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
@@ -40,7 +41,6 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     }
   });
   shared.finish();
-  for (const Budget& own : budgets) budget.spend(own.spent());
   for (std::size_t r = 0; r < regions.size(); ++r)
     if (is_stuck[r])
       for (Index v : regions[r].region.node) (*stuck)[v] = true;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace qmorph {
 
@@ -22,12 +23,27 @@ class Budget {
   bool is_spent() const { return left() <= 0; }
   /// For what has to begin again, because its first result is not valid: it does so with a little at least.
   double left_for_another() const {
-    constexpr double kLeast = 0.25;
+    constexpr double kLeast = 0.1;
     return std::max(left(), kLeast * allowed_);
   }
 
  private:
   double allowed_, spent_ = 0;
+};
+
+/// Has what came of shares spent from the whole in the end, also if something is thrown.
+class SpentInAll {
+ public:
+  SpentInAll(Budget& whole, const std::vector<Budget>& shares) : whole_(whole), shares_(shares) {}
+  SpentInAll(const SpentInAll&) = delete;
+  SpentInAll& operator=(const SpentInAll&) = delete;
+  ~SpentInAll() {
+    for (const Budget& share : shares_) whole_.spend(share.spent());
+  }
+
+ private:
+  Budget& whole_;
+  const std::vector<Budget>& shares_;
 };
 
 /// Of a call with so many triangles in all its surfaces. 1000 of work take about 20 microseconds; an ordinary surface

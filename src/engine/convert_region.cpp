@@ -49,8 +49,9 @@ struct Front {
   std::uint64_t connectivity;  ///< of what it has made
 };
 
-/// What an attempt costs however small the region is.
-constexpr std::size_t kWorkPerAttempt = 200;
+/// What an attempt costs however small the region is, and what the front costs for a triangle; the first is no
+/// improvement, and what everything costs is in no budget.
+constexpr std::size_t kWorkPerAttempt = 200, kWorkToAdvance = 150;
 /// Of a triangle that is added where a fan is graded: the front's, above all.
 constexpr std::size_t kWorkToGrade = 150;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
@@ -94,6 +95,13 @@ class RegionConverter {
         climb(result);
       } else {
         result = begin(std::move(start_), options_, allowed_);
+        if (result.fault) {
+          Attempt paired = pair_triangles();
+          take_chords(paired);
+          if (!paired.fault) return paired;
+          Pipeline(result.options, result.report, result.record, input_, left()).clean(result.mesh);
+          result.fault.reset();
+        }
         finish(result);
         take_rows(result);
         take_chords(result);
@@ -323,6 +331,7 @@ class RegionConverter {
         break;
       }
       if (would_repeat(options.front)) continue;
+      budget_.spend(double(kWorkToAdvance * size));
       Attempt other = begin(start_, options, left(), Way::one_of_many, is_quick);
       if (!other.fault && count_faces(other.mesh, 4) <= most_faces) tries.push_back(std::move(other));
     }
@@ -340,12 +349,15 @@ class RegionConverter {
     if (is_small_) result.options.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(result.options, result.report, result.record, input_, allowed);
     Front front{};
-    if (way != Way::without_front)
-      pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
+    const bool is_astray =
+        way != Way::without_front &&
+        !pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
     cleanup::CavityLimits limits;
     if (is_quick) limits.most_nodes = kQuickNodes;
     if (way == Way::one_of_many && is_repeated(front, result.mesh))
       result.fault = SurfaceError("the front has made this before");
+    else if (way == Way::with_front && is_astray)
+      result.fault = SurfaceError("the front has gone astray");
     else
       pipeline.clean(result.mesh, limits);
     spend(result.mesh.work());
@@ -457,6 +469,7 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
   if (!ear) return {};
   try {
     const Region rest = cut_off(region, *ear);
+    budget.spend(double(kWorkToAdvance * rest.triangles.size()));
     Attempt result = RegionConverter(rest, plane, options, budget, tries).run();
     put_back(result.mesh, *ear);
     ++result.report.leftover_triangles;  // the front leaves the ear, too

@@ -60,19 +60,22 @@ void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds)
   start_ = Clock::now();
 }
 
-void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions) {
+bool Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   front::MorphSettings settings;
   settings.check_each_step = options_.check_each_step;
   settings.progress = [&](double share) { progress("front", 0.5 * share); };
   settings.observer = options_.observer;
   settings.decisions = decisions;
+  bool is_astray = false;
+  settings.is_astray = &is_astray;
   settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
   if (options_.observer) settings.lift = plane.curved;
   if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
   report_.front_quads += count_faces(mesh, 4);
   report_.leftover_triangles += count_faces(mesh, 3);
   end_stage(Stage::front, mesh, report_.front_seconds);
+  return !is_astray;
 }
 
 kernel::Budget Pipeline::until(const kernel::Mesh& mesh, double share) const {

@@ -25,8 +25,8 @@ class Pipeline {
   Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start, double allowed);
 
   /// Triangles to quads, as far as the front comes. `plane` is for the observer; `decisions`, if not null, is told what
-  /// the constants have decided. \throws Cancelled, as all stages do
-  void advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions = nullptr);
+  /// the constants have decided. False if the front has gone astray. \throws Cancelled, as all stages do
+  bool advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions = nullptr);
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 

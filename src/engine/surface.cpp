@@ -92,6 +92,7 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budg
     progress.push_back(shared.part(size));
     budgets.emplace_back(share_of(allowed, size, double(triangles), meshes.size()));
   }
+  const SpentInAll spent_in_all(budget, budgets);
   parallel::for_each_index(meshes.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
@@ -103,7 +104,6 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budg
     }
   });
   shared.finish();
-  for (const Budget& own : budgets) budget.spend(own.spent());
 
   SurfaceWork result;
   ConversionReport& report = result.conversion.report;
@@ -144,20 +144,49 @@ class Patches {
   }
 
   std::vector<Outcome> run() {
-    parallel::with_threads(options_.threads,
-                           [&] { parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); }); });
+    parallel::with_threads(options_.threads, [&] {
+      parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i, progress_[i]); });
+      const std::vector<std::size_t> again = share_out_the_rest();
+      parallel::for_each_index(again.size(), [&](std::size_t k) {
+        const ProgressCallback& progress = progress_[again[k]];
+        work_on(again[k], progress ? [&](std::string_view stage, double) { return progress(stage, 1); } : progress);
+      });
+    });
     shared_.finish();
     for (std::size_t i = 0; options_.observer && i < patches_.size(); ++i) records_[i].tell(*options_.observer, i);
     return std::move(outcomes_);
   }
 
  private:
-  void work_on(std::size_t i) {
+  /// What surfaces have not spent is for those that could have made use of more, as far as it is much more. Returns
+  /// their numbers; they begin again.
+  std::vector<std::size_t> share_out_the_rest() {
+    constexpr double kMuchMore = 1.5;
+    double rest = 0, wanted = 0;
+    std::vector<std::size_t> again;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      rest += budgets_[i].left();
+      if (could_use_more(i)) again.push_back(i), wanted += budgets_[i].allowed();
+    }
+    const double times = wanted > 0 ? rest / wanted : 0;
+    if (times < kMuchMore) return {};
+    for (std::size_t i : again) budgets_[i] = Budget(times * budgets_[i].allowed());
+    return again;
+  }
+
+  bool could_use_more(std::size_t i) const {
+    constexpr double kNearlyAll = 0.7;
+    const Budget& budget = budgets_[i];
+    if (!outcomes_[i].conversion || budget.allowed() >= allowance(std::size_t(weight(*patches_[i])))) return false;
+    return budget.spent() > kNearlyAll * budget.allowed() || outcomes_[i].conversion->report.budgets_spent > 0;
+  }
+
+  void work_on(std::size_t i, const ProgressCallback& progress) {
     using Clock = std::chrono::steady_clock;
     if (shared_.is_over()) return;
     const Clock::time_point start = Clock::now();
     Options own = options_;
-    if (progress_[i]) own.progress = std::ref(progress_[i]);
+    if (progress) own.progress = std::ref(progress);
     std::optional<NumberedObserver> numbered;
     if (options_.observer) own.observer = &numbered.emplace(*options_.observer, i);
     try {
@@ -165,9 +194,9 @@ class Patches {
       outcomes_[i].conversion = std::move(result.conversion);
       records_[i] = std::move(result.record);
     } catch (const SurfaceError& error) {
-      outcomes_[i].error = error;
+      if (!outcomes_[i].conversion) outcomes_[i].error = error;
     }
-    outcomes_[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    outcomes_[i].seconds += std::chrono::duration<double>(Clock::now() - start).count();
   }
 
   const std::vector<const Patch*>& patches_;
