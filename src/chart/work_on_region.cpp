@@ -26,6 +26,8 @@
 namespace qmorph::chart {
 namespace {
 
+/// What everything that is not counted costs a try for each triangle: to divide, to flatten, to settle.
+constexpr std::size_t kWorkToBegin = 120;
 /// Faces of a chart: larger ones cost more than they are worth.
 constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
@@ -53,6 +55,7 @@ class Worker {
         distrust_(distrust),
         tries_(tries),
         ground_{*region.background, may_stretch() ? region.stretch() : nullptr} {
+    budget.spend(double(kWorkToBegin * region.region.triangles.size()));
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }

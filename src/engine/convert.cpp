@@ -20,7 +20,7 @@ namespace {
 
 kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, Budget& budget,
                           ConversionReport& report, Record& record) {
-  if (options.layers && !budget.is_spent())
+  if (options.layers)
     if (auto quads = stretch::convert_stretched(region, plane, options, budget, report, record))
       return std::move(quads->mesh);
   return convert_region(region, plane, options, budget, report, record);

@@ -49,11 +49,13 @@ struct Front {
   std::uint64_t connectivity;  ///< of what it has made
 };
 
-/// What an attempt costs however small the region is, and what the front costs for a triangle; the first is no
-/// improvement, and what everything costs is in no budget.
-constexpr std::size_t kWorkPerAttempt = 200, kWorkToAdvance = 150;
-/// Of a triangle that is added where a fan is graded: the front's, above all.
-constexpr std::size_t kWorkToGrade = 150;
+/// What an attempt costs however small the region is.
+constexpr std::size_t kWorkPerAttempt = 200;
+/// What the front and all that is not counted cost another attempt: for each triangle, and however few there are. (The
+/// first is no improvement.)
+constexpr std::size_t kWorkToAdvance = 250, kWorkToBegin = 500;
+/// Of a triangle that is added where a fan is graded.
+constexpr std::size_t kWorkToGrade = 50;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
 /// triangle if a corner is poor after these.
 constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;
@@ -74,10 +76,10 @@ class RegionConverter {
         options_(options),
         is_small_(is_small(region, options)),
         budget_(budget),
-        to_climb_(work_to_climb()),
-        allowed_(budget.left() - to_climb_),
         tries_(tries) {
     start();
+    to_climb_ = work_to_climb();
+    allowed_ = budget.left() - to_climb_;
   }
 
   Attempt run() {
@@ -127,7 +129,8 @@ class RegionConverter {
     grade_fans(start_);
     // What makes fans better is no reason to spend more on the region.
     const std::size_t size = count_faces(start_, 3), before = region_.triangles.size();
-    if (size > before) start_.add_work(kWorkToGrade * (size - before));
+    if (size > before) budget_.spend(double(kWorkToGrade * (size - before)));
+    graded_ = double(size) / double(before);
   }
 
   /// In all, and not by a quad that is poorer than the others' worst.
@@ -199,7 +202,7 @@ class RegionConverter {
   void take_pairs(Attempt& best) {
     constexpr double kPoor = 0.3, kAsGood = 0.05;
     const Worth worth = judge(best.mesh);
-    const bool is_astray = worth.growth > 2 * kFairGrowth;
+    const bool is_astray = worth.growth > 2 * kFairGrowth * graded_;
     const bool has_no_room = is_small_ && !plane_.curved && worth.least < kPoor;
     if (best.fault || !(is_astray || has_no_room)) return;
     Attempt paired = pair_triangles();
@@ -331,7 +334,7 @@ class RegionConverter {
         break;
       }
       if (would_repeat(options.front)) continue;
-      budget_.spend(double(kWorkToAdvance * size));
+      budget_.spend(double(kWorkToBegin + kWorkToAdvance * size));
       Attempt other = begin(start_, options, left(), Way::one_of_many, is_quick);
       if (!other.fault && count_faces(other.mesh, 4) <= most_faces) tries.push_back(std::move(other));
     }
@@ -451,8 +454,9 @@ class RegionConverter {
   const Options& options_;
   const bool is_small_;    ///< so that a second try is allowed
   Budget& budget_;
-  const double to_climb_;  ///< work that is kept for climb()
-  const double allowed_;   ///< for all the rest
+  double graded_ = 1;      ///< triangles of `start_` for each of the region's
+  double to_climb_ = 0;    ///< work that is kept for climb()
+  double allowed_ = 0;     ///< for all the rest
   const Tries tries_;
   std::size_t cost_ = 0;  ///< of all attempts so far
   std::vector<Front> fronts_;
@@ -469,7 +473,7 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
   if (!ear) return {};
   try {
     const Region rest = cut_off(region, *ear);
-    budget.spend(double(kWorkToAdvance * rest.triangles.size()));
+    budget.spend(double(kWorkToBegin + kWorkToAdvance * rest.triangles.size()));
     Attempt result = RegionConverter(rest, plane, options, budget, tries).run();
     put_back(result.mesh, *ear);
     ++result.report.leftover_triangles;  // the front leaves the ear, too

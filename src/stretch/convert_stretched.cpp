@@ -20,6 +20,8 @@ namespace {
 
 /// Fewer triangles may be what they are by chance, or because the boundary leaves no room, though they are alike.
 constexpr std::size_t kFewestAlike = 16;
+/// What a chart costs, and quads in it, for each triangle: with less there is no hope for them.
+constexpr std::size_t kLeastWork = 100;
 
 /// A look at single triangles: whether as many are so long that the region may be stretched, and none is turned over,
 /// or without area: a chart would hide that.
@@ -130,6 +132,7 @@ std::optional<Attempt> attempt(const MetricField& field, const Work& work) {
 
 std::optional<StretchedQuads> convert_stretched(const Region& region, const Plane& plane, const Options& options,
                                                 Budget& budget, ConversionReport& report, Record& record) {
+  if (budget.left() < double(kLeastWork * region.triangles.size())) return {};
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
   if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
   const Surface surface(region.points, region.triangles, boundary_edges(region));
