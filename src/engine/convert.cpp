@@ -111,6 +111,8 @@ bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
   return is_any;
 }
 
+}  // namespace
+
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
 /// layers around it are left to the front as well, and at last all of them.
 SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& budget) {
@@ -137,8 +139,6 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& bu
   }
   return convert_triangles(patch, plane, options, budget, nullptr);
 }
-
-}  // namespace
 
 Conversion convert(const Patch& patch, const Options& options) { return work_on_patch(patch, options, convert_patch); }
 

@@ -55,7 +55,7 @@ constexpr std::size_t kWorkPerAttempt = 200;
 /// first is no improvement.)
 constexpr std::size_t kWorkToAdvance = 250, kWorkToBegin = 500;
 /// Of a triangle that is added where a fan is graded.
-constexpr std::size_t kWorkToGrade = 50;
+constexpr std::size_t kWorkToGrade = 100;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
 /// triangle if a corner is poor after these.
 constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;

@@ -132,14 +132,16 @@ namespace {
 /// Surfaces side by side.
 class Patches {
  public:
-  Patches(const std::vector<const Patch*>& patches, const Options& options, const PatchWork& work)
+  Patches(const std::vector<const Patch*>& patches, const Options& options, const PatchWork& work,
+          std::optional<double> allowed)
       : patches_(patches), options_(options), work_(work), outcomes_(patches.size()), records_(patches.size()) {
     double total = 0;
     for (const Patch* patch : patches) total += weight(*patch);
     shared_ = parallel::SharedProgress(options.progress, total);
     for (const Patch* patch : patches) {
       progress_.push_back(shared_.part(weight(*patch)));
-      budgets_.emplace_back(share_of(budget_of_call(total), weight(*patch), total, patches.size()));
+      budgets_.emplace_back(
+          share_of(allowed.value_or(budget_of_call(total)), weight(*patch), total, patches.size()));
     }
   }
 
@@ -212,8 +214,8 @@ class Patches {
 }  // namespace
 
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
-                                     const PatchWork& work) {
-  return Patches(patches, options, work).run();
+                                     const PatchWork& work, std::optional<double> allowed) {
+  return Patches(patches, options, work, allowed).run();
 }
 
 }  // namespace qmorph

@@ -4,6 +4,7 @@
 /// and what they have become is put together.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/budget.hpp"
@@ -48,8 +49,12 @@ using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& o
 /// `work` on one patch, on the threads that the options allow.
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);
 
-/// `work` on each patch, side by side.
+/// `work` on each patch, side by side, each with its share of what is allowed for all: what a call may cost, if nothing
+/// is said. What some leave is for those that could use much more, which begin again.
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
-                                     const PatchWork& work);
+                                     const PatchWork& work, std::optional<double> allowed = {});
+
+/// The work of convert(): layers stay the quads that they are, and the front has what is left.
+SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& budget);
 
 }  // namespace qmorph
