@@ -129,13 +129,14 @@ class Worker {
   double window_allowance() const {
     constexpr double kTimes = 8, kEach = 1800;
     const std::size_t size = region_.region.triangles.size();
-    return std::clamp(budget_.left(), 0.0, kTimes * (allowance(size) + kEach * double(size)));
+    return kTimes * (allowance(size) + kEach * double(size));
   }
 
-  /// Of all parts; interfaces and what space asks for need the rest.
+  /// Of all parts; interfaces and what space asks for need the rest. A try that has begun gets what it takes.
   double work_in_charts() const {
-    constexpr double kShare = 0.5;
-    return std::clamp(kShare * budget_.left(), 0.0, allowance(region_.region.triangles.size()));
+    constexpr double kShare = 0.5, kLeastEach = 500;
+    const std::size_t size = region_.region.triangles.size();
+    return std::min(allowance(size), std::max(kShare * budget_.left(), kLeastEach * double(size)));
   }
 
   /// What is refined here is as long as there were too few nodes.
