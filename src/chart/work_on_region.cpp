@@ -308,7 +308,7 @@ class Worker {
     std::vector<char> waiting = std::move(needs_cleaning_);
     waiting.resize(mesh_.points.size(), 0);
     for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
-    work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
+    work_in_windows(std::move(waiting), kCleaningWindow, clean_window, window_allowance());
   }
 
   /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they
@@ -321,18 +321,19 @@ class Worker {
       std::vector<char> irregular = irregular_nodes(mesh_, creases_);
       const auto count = std::count(irregular.begin(), irregular.end(), 1);
       if (double(count) < kFewIrregular * double(mesh_.faces.size())) break;
-      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window)) break;
+      const double allowed = std::min(budget_.left(), window_allowance());
+      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window, allowed)) break;
       changed = true;
     }
     return changed;
   }
 
   /// True if a window has changed.
-  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work, double most) {
     const Ground ground{background(), stretched_.empty() ? nullptr : ground_.field};
     constexpr double kShares = 3;  // most windows need less than their share, some more
     bool changed = false;
-    Budget budget(window_allowance());
+    Budget budget(most);
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
