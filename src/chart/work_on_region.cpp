@@ -395,7 +395,8 @@ struct Best {
 bool has_more_for(const Budget& budget, std::size_t triangles, double times) {
   constexpr double kTries = 4, kTriesOfSmall = 8;  // in allowances; the first try takes two or three
   constexpr std::size_t kSmall = 2000;
-  return !budget.is_spent() && budget.spent() < times * (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
+  return !budget.is_spent() &&
+         budget.spent() < times * (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
 }
 
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {

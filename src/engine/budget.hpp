@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// What improvement may cost: work (`kernel::Mesh::work()`, and what is counted like it), never time, so that the result
-/// is the same on every machine. A call has one budget in proportion to its triangles; surfaces, their regions and the
+/// What improvement may cost: work (`kernel::Mesh::work()`, and what is counted like it), never time, so that the
+/// result is the same on every machine. A call has one budget in proportion to its triangles; surfaces, their regions and the
 /// parts of those get shares of it before work begins, so that the number of threads decides nothing. All that improves
 /// the same region draws from its share, one after the other, failures and tries included; what makes an element valid
 /// may go beyond it.
@@ -54,8 +54,8 @@ inline double budget_of_call(double triangles) {
   return std::max(kEach * triangles, kFew - kLessEach * triangles);
 }
 
-/// What a surface of so many triangles is worth at most, however much its call may cost: in a small one a single step of
-/// the front decides the result, and tries with other constants gain much; but not without end.
+/// What a surface of so many triangles is worth at most, however much its call may cost: in a small one a single step
+/// of the front decides the result, and tries with other constants gain much; but not without end.
 inline double allowance(std::size_t triangles) {
   constexpr double kEach = 1800, kFew = 12e6, kLessEach = 4800, kMostEach = 60000;
   const double n = double(triangles);

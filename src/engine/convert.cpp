@@ -53,10 +53,12 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);
-  const auto work = [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report, Record& record) {
+  const auto work = [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report,
+                        Record& record) {
     try {
       const Region& region = surface.regions[r];
-      if (auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record)) return std::move(*mesh);
+      if (auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record))
+        return std::move(*mesh);
       return convert_flat(region, surface.plane, own, budget_of_region, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;

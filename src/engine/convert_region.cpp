@@ -268,8 +268,7 @@ class RegionConverter {
   }
 
   double work_to_climb() const {
-    const bool may_climb =
-        is_small_ && !plane_.curved && options_.smoothing.method == SmoothingMethod::shape_energy;
+    const bool may_climb = is_small_ && !plane_.curved && options_.smoothing.method == SmoothingMethod::shape_energy;
     const auto most = double(kWorkToClimb * region_.triangles.size());
     return may_climb ? std::min(kShareToClimb * budget_.left(), most) : 0;
   }
@@ -302,8 +301,7 @@ class RegionConverter {
   std::size_t lift_worst(kernel::Mesh& mesh) const {
     constexpr double kBoundaryIsPoor = 0.3;  // under that it nearly always is, and nothing was found
     constexpr std::size_t kFew = 150;        // triangles: in larger regions it costs much and brings little
-    const double allowed =
-        std::min({kWorkToLift * double(region_.triangles.size()), kMostToLift, left()});
+    const double allowed = std::min({kWorkToLift * double(region_.triangles.size()), kMostToLift, left()});
     if (allowed <= 0 || region_.triangles.size() > kFew || judge(mesh).least < kBoundaryIsPoor) return 0;
     const std::size_t changes = cleanup::lift_worst(mesh, options_.smoothing, {mesh, std::size_t(allowed)});
     if (changes > 0) smoothing::smooth(mesh, options_.smoothing);
@@ -452,11 +450,11 @@ class RegionConverter {
   const Region& region_;
   const Plane& plane_;
   const Options& options_;
-  const bool is_small_;    ///< so that a second try is allowed
+  const bool is_small_;  ///< so that a second try is allowed
   Budget& budget_;
-  double graded_ = 1;      ///< triangles of `start_` for each of the region's
-  double to_climb_ = 0;    ///< work that is kept for climb()
-  double allowed_ = 0;     ///< for all the rest
+  double graded_ = 1;    ///< triangles of `start_` for each of the region's
+  double to_climb_ = 0;  ///< work that is kept for climb()
+  double allowed_ = 0;   ///< for all the rest
   const Tries tries_;
   std::size_t cost_ = 0;  ///< of all attempts so far
   std::vector<Front> fronts_;

@@ -31,8 +31,8 @@ using Clock = std::chrono::steady_clock;
 /// there for the next.
 constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
                  kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
-/// The share that repairs in twos may cost, which are many tries for few elements; more where not much is allowed, as long
-/// as it is little for a face.
+/// The share that repairs in twos may cost, which are many tries for few elements; more where not much is allowed, as
+/// long as it is little for a face.
 constexpr double kRepairInTwos = 0.01, kMostRepairInTwos = 0.018, kRepairInTwosOfFace = 54;
 
 Pipeline::Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start,
@@ -153,9 +153,10 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   note(shape);
   cleanup::replace_poor_cavities(mesh, options_.smoothing, cavities);
   note(cavities);
-  const double in_twos =
-      std::clamp(kRepairInTwosOfFace * double(mesh.face_slots()), kRepairInTwos * allowed_, kMostRepairInTwos * allowed_);
-  cleanup::repair_in_twos(mesh, options_.smoothing, until(mesh, std::min(1.0, spent(mesh) + (allowed_ > 0 ? in_twos / allowed_ : 0))));
+  const double in_twos = std::clamp(kRepairInTwosOfFace * double(mesh.face_slots()), kRepairInTwos * allowed_,
+                                    kMostRepairInTwos * allowed_);
+  cleanup::repair_in_twos(mesh, options_.smoothing,
+                          until(mesh, std::min(1.0, spent(mesh) + (allowed_ > 0 ? in_twos / allowed_ : 0))));
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     const kernel::Budget last = until(mesh, 1);

@@ -140,8 +140,7 @@ class Patches {
     shared_ = parallel::SharedProgress(options.progress, total);
     for (const Patch* patch : patches) {
       progress_.push_back(shared_.part(weight(*patch)));
-      budgets_.emplace_back(
-          share_of(allowed.value_or(budget_of_call(total)), weight(*patch), total, patches.size()));
+      budgets_.emplace_back(share_of(allowed.value_or(budget_of_call(total)), weight(*patch), total, patches.size()));
     }
   }
 
