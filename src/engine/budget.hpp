@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /// What improvement may cost: work (`kernel::Mesh::work()`, and what is counted like it), never time, so that the
-/// result is the same on every machine. A call has one budget in proportion to its triangles; surfaces, their regions and the
-/// parts of those get shares of it before work begins, so that the number of threads decides nothing. All that improves
-/// the same region draws from its share, one after the other, failures and tries included; what makes an element valid
-/// may go beyond it.
+/// result is the same on every machine. A call has one budget in proportion to its triangles; surfaces, their regions
+/// and the parts of those get shares of it before work begins, so that the number of threads decides nothing. All that
+/// improves the same region draws from its share, one after the other, failures and tries included; what makes an
+/// element valid may go beyond it.
 
 #include <algorithm>
 #include <cstddef>
