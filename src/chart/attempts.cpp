@@ -42,16 +42,15 @@ struct Worth {
 
 }  // namespace
 
-RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, double allowed, Task task) {
+RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {
   const std::size_t size = region.region.triangles.size();
-  Effort effort{allowed};
-  if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, effort, task);
+  if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, budget, task);
   constexpr double kTimes = 2.5;  // more than what fails is worth: each try gives a result
-  RegionWork best = work_on_region(region, options, effort, task);
+  RegionWork best = work_on_region(region, options, budget, task);
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {
-    if (worth.irregular < kFewIrregular || !effort.has_more_for(size, kTimes)) break;
-    std::optional<RegionWork> work = try_region(region, variant, effort, task);
+    if (worth.irregular < kFewIrregular || !has_more_for(budget, size, kTimes)) break;
+    std::optional<RegionWork> work = try_region(region, variant, budget, task);
     if (!work) continue;
     const Worth other(work->mesh, size);
     if (worth.sum >= other.sum) continue;

@@ -5,7 +5,6 @@
 
 #include "chart/attempts.hpp"
 #include "chart/collect.hpp"
-#include "engine/allowance.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"
@@ -15,21 +14,26 @@ namespace qmorph::chart {
 namespace {
 
 std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task,
-                                    std::vector<bool>* stuck) {
+                                    Budget& budget, std::vector<bool>* stuck) {
   std::vector<char> is_stuck(regions.size(), 0);
   std::vector<RegionWork> works(regions.size());
   std::size_t total = 0;
   for (const CurvedRegion& region : regions) total += region.region.triangles.size();
   const parallel::SharedProgress shared(options.progress, double(total));
   std::vector<ProgressCallback> progress;
-  for (const CurvedRegion& region : regions) progress.push_back(shared.part(double(region.region.triangles.size())));
+  std::vector<Budget> budgets;
+  for (const CurvedRegion& region : regions) {
+    const auto size = double(region.region.triangles.size());
+    progress.push_back(shared.part(size));
+    budgets.emplace_back(share_of(budget.left_for_another(), size, double(total), regions.size()));
+  }
+  const SpentInAll spent_in_all(budget, budgets);
   parallel::for_each_index(regions.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    const double allowed = part_of(allowance(total), regions[r].region.triangles.size(), total, regions.size());
     try {
-      works[r] = best_of_attempts(regions[r], own, allowed, task);
+      works[r] = best_of_attempts(regions[r], own, budgets[r], task);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = 1;
@@ -62,8 +66,8 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 
 /// `kept` has those quads of the patch that stay.
 SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
-                           Task task, std::vector<bool>* stuck) {
-  std::vector<RegionWork> works = work_on_all(regions, options, task, stuck);
+                           Task task, Budget& budget, std::vector<bool>* stuck) {
+  std::vector<RegionWork> works = work_on_all(regions, options, task, budget, stuck);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -79,16 +83,16 @@ SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& r
 
 }  // namespace
 
-SurfaceWork convert_curved(const Patch& patch, const Options& options, std::vector<bool>* stuck) {
-  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert, stuck);
+SurfaceWork convert_curved(const Patch& patch, const Options& options, Budget& budget, std::vector<bool>* stuck) {
+  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert, budget, stuck);
 }
 
-SurfaceWork improve_curved(const Patch& patch, const Options& options) {
+SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& budget) {
   Patch halves = patch;
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
   const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(halves, regions, options, Task::improve, nullptr);
+  return work_on_curved(halves, regions, options, Task::improve, budget, nullptr);
 }
 
 }  // namespace qmorph::chart

@@ -6,7 +6,7 @@ namespace qmorph::chart {
 
 /// convert() and improve() of a patch that is not planar. Regions that no valid quads are found for are left out of the
 /// result, and their nodes are marked in `stuck`; if that is null, they are an error.
-SurfaceWork convert_curved(const Patch& patch, const Options& options, std::vector<bool>* stuck);
-SurfaceWork improve_curved(const Patch& patch, const Options& options);
+SurfaceWork convert_curved(const Patch& patch, const Options& options, Budget& budget, std::vector<bool>* stuck);
+SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& budget);
 
 }  // namespace qmorph::chart

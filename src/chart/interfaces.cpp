@@ -46,7 +46,7 @@ void straighten_window(SurfaceMesh& mesh, const std::vector<Index>& opposite, co
 
 /// `waiting`: nodes of interfaces that have to be looked at.
 void straighten_around(SurfaceMesh& mesh, const std::vector<Edge>& creases, const std::vector<Edge>& interface,
-                       std::vector<char> waiting, const Ground& ground, WindowBudget& budget) {
+                       std::vector<char> waiting, const Ground& ground, Budget& budget) {
   const std::vector<Index> opposite = opposite_sides(mesh);
   const std::vector<bool> is_crease = sides_on(mesh, creases);
   std::vector<bool> is_cut = sides_on(mesh, interface);
@@ -89,7 +89,7 @@ std::vector<bool> sides_on(const SurfaceMesh& mesh, const std::vector<Edge>& edg
 }
 
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface, const Ground& ground,
-                WindowBudget& budget) {
+                Budget& budget) {
   if (interface.empty()) return;
   constexpr int kSteps = 4;  // along the interface from a node that another has become
   const std::vector<double> size = mean_edges(mesh, ground);

@@ -20,7 +20,7 @@ std::vector<Edge> edges_on(const SurfaceMesh& mesh, const std::vector<bool>& sid
 /// shorter than others, some of their nodes go. Creases stay; faces may get other numbers. Where triangles are
 /// stretched, all that is by their metric.
 void straighten(SurfaceMesh& mesh, const std::vector<Edge>& creases, std::vector<Edge>& interface, const Ground& ground,
-                WindowBudget& budget);
+                Budget& budget);
 
 /// Splits edges between parts in two so that one part at most has an odd number of sides, interfaces rather than
 /// creases. New edges are added to `interface` or `creases`, `division` and `opposite` are brought up to date. Marks

@@ -32,21 +32,21 @@ Plane plane_of(const LaidOut& part, bool is_watched) {
 
 }  // namespace
 
-PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, double allowed, Task task,
+PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, Budget& budget, Task task,
                       ConversionReport& report, Record& record, Tries tries) {
   const auto& [piece, chart] = part;
   const Plane plane = plane_of(part, options.observer != nullptr);
   const Region region = piece.region(chart.flat());
   if (task == Task::convert) {
     if (ground.field)
-      if (auto quads = stretch::convert_stretched(region, plane, options, allowed, report, record))
+      if (auto quads = stretch::convert_stretched(region, plane, options, budget, report, record))
         return {std::move(quads->mesh), quads->in_chart};
-    return {convert_region(region, plane, options, allowed, report, record, tries)};
+    return {convert_region(region, plane, options, budget, report, record, tries)};
   }
   kernel::Mesh mesh = piece.mesh(chart.flat());
   const kernel::Mesh input = mesh;
   const ImproveStart start = start_improving(region, std::move(mesh), plane, options);
-  return {improve_region(start, input, plane, options, allowed, report, record)};
+  return {improve_region(start, input, plane, options, budget, report, record)};
 }
 
 }  // namespace qmorph::chart

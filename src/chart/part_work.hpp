@@ -18,9 +18,9 @@ struct PartWork {
   bool is_stretched = false;  ///< made for stretched triangles: squares are not what its quads are to be
 };
 
-/// What all stages make of a part, for about as much work as is allowed. \throws SurfaceError if no valid result was
-/// found
-PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, double allowed, Task task,
+/// What all stages make of a part, for about as much work as the budget has left. \throws SurfaceError if no valid
+/// result was found
+PartWork work_on_part(const LaidOut& part, const Ground& ground, const Options& options, Budget& budget, Task task,
                       ConversionReport& report, Record& record, Tries tries);
 
 }  // namespace qmorph::chart

@@ -111,7 +111,7 @@ std::vector<double> mean_edges(const SurfaceMesh& mesh, const Ground& ground) {
 }
 
 std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-                            std::vector<Edge>& interface, const Ground& ground, WindowBudget& budget) {
+                            std::vector<Edge>& interface, const Ground& ground, Budget& budget) {
   if (std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const Face& face) { return degree(face) != 3; })) return {};
   const std::vector<Merge> merges = choose(mesh, size, creases, interface, ground);
   if (merges.empty()) return {};

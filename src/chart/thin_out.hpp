@@ -11,6 +11,6 @@ std::vector<double> mean_edges(const SurfaceMesh& mesh, const Ground& ground);
 /// whole as those of the mesh were (`size`, by node): elements beside an interface would be smaller than others.
 /// Triangles only. Faces may get other numbers. Returns the nodes that others have become.
 std::vector<Index> thin_out(SurfaceMesh& mesh, const std::vector<double>& size, const std::vector<Edge>& creases,
-                            std::vector<Edge>& interface, const Ground& ground, WindowBudget& budget);
+                            std::vector<Edge>& interface, const Ground& ground, Budget& budget);
 
 }  // namespace qmorph::chart

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "cleanup/replace_cavities.hpp"
-#include "engine/allowance.hpp"
+#include "engine/budget.hpp"
 #include "engine/pipeline.hpp"
 #include "stretch/window.hpp"
 

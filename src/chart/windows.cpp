@@ -17,13 +17,13 @@ constexpr double kMostDistortion = 1.5;
 class Taking {
  public:
   Taking(const SurfaceMesh& mesh, const std::vector<Index>& opposite, const std::vector<bool>& is_wall,
-         const WindowSize& size, std::vector<char>& waiting, WindowBudget& budget)
+         const WindowSize& size, std::vector<char>& waiting, Budget& budget)
       : mesh_(mesh), opposite_(opposite), is_wall_(is_wall), size_(size), waiting_(waiting), budget_(budget) {}
 
   std::vector<Window> run() {
     std::vector<Window> windows;
     if (budget_.is_spent()) return windows;
-    budget_.spend(kWorkToLook * mesh_.faces.size());
+    budget_.spend(double(kWorkToLook * mesh_.faces.size()));
     find_strip();
     for (Index f = 0; f < mesh_.faces.size() && !budget_.is_spent(); ++f) {
       if (!in_strip_[f] || !has_waiting(f)) continue;
@@ -88,12 +88,12 @@ class Taking {
   }
 
   std::unique_ptr<LaidOut> lay_out(const std::vector<Index>& faces) {
-    budget_.spend(kWorkToLayOut * faces.size());
+    budget_.spend(double(kWorkToLayOut * faces.size()));
     Piece piece(mesh_, opposite_, is_wall_, faces);
     if (loops_of(piece).size() != 1 || euler_characteristic(piece) != 1) return nullptr;
     auto laid_out = std::make_unique<LaidOut>(std::move(piece), kFewRounds);
     const Flattening& flattening = laid_out->chart.flattening();
-    budget_.spend(flattening.work);
+    budget_.spend(double(flattening.work));
     if (flattening.flipped > 0 || flattening.distortion > kMostDistortion) return nullptr;
     return laid_out;
   }
@@ -128,7 +128,7 @@ class Taking {
   const std::vector<bool>& is_wall_;
   const WindowSize& size_;
   std::vector<char>& waiting_;
-  WindowBudget& budget_;
+  Budget& budget_;
   std::vector<char> in_strip_, in_window_;
 };
 
@@ -136,7 +136,7 @@ class Taking {
 
 std::vector<Window> take_windows(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
                                  const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting,
-                                 WindowBudget& budget) {
+                                 Budget& budget) {
   return Taking(mesh, opposite, is_wall, size, waiting, budget).run();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "chart/divide.hpp"
+#include "engine/budget.hpp"
 
 namespace qmorph::chart {
 
@@ -19,19 +20,6 @@ struct WindowSize {
   bool apart = false;  ///< a window waits until no other one is nearer to its middle than the margin
 };
 
-/// Work (`kernel::Mesh::work()`) that windows may cost, all together.
-class WindowBudget {
- public:
-  explicit WindowBudget(double allowed) : allowed_(allowed) {}
-  void spend(std::size_t work) { spent_ += work; }
-  std::size_t spent() const { return spent_; }
-  double left() const { return allowed_ - double(spent_); }
-  bool is_spent() const { return left() <= 0; }
-
- private:
-  double allowed_;
-  std::size_t spent_ = 0;
-};
 /// Of a face that is laid flat, or looked at for a round of windows.
 inline constexpr std::size_t kWorkToLayOut = 300, kWorkToLook = 20;
 
@@ -46,6 +34,6 @@ inline bool is_any(const std::vector<char>& waiting) {
 /// \param is_wall sides that no window crosses
 std::vector<Window> take_windows(const SurfaceMesh& mesh, const std::vector<Index>& opposite,
                                  const std::vector<bool>& is_wall, const WindowSize& size, std::vector<char>& waiting,
-                                 WindowBudget& budget);
+                                 Budget& budget);
 
 }  // namespace qmorph::chart

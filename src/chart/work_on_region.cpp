@@ -15,7 +15,7 @@
 #include "chart/widen_tips.hpp"
 #include "chart/window_work.hpp"
 #include "chart/windows.hpp"
-#include "engine/allowance.hpp"
+#include "engine/budget.hpp"
 #include "engine/front_variants.hpp"
 #include "geometry/describe.hpp"
 #include "parallel/for_each.hpp"
@@ -26,6 +26,8 @@
 namespace qmorph::chart {
 namespace {
 
+/// What everything that is not counted costs a try for each triangle: to divide, to flatten, to settle.
+constexpr std::size_t kWorkToBegin = 120;
 /// Faces of a chart: larger ones cost more than they are worth.
 constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
@@ -44,15 +46,16 @@ struct Distrust {
 /// One try.
 class Worker {
  public:
-  Worker(const CurvedRegion& region, const Options& options, Effort& effort, Task task, const Distrust& distrust,
+  Worker(const CurvedRegion& region, const Options& options, Budget& budget, Task task, const Distrust& distrust,
          Tries tries = Tries::as_many_as_pay)
       : region_(region),
         options_(options),
-        effort_(effort),
+        budget_(budget),
         task_(task),
         distrust_(distrust),
         tries_(tries),
         ground_{*region.background, may_stretch() ? region.stretch() : nullptr} {
+    budget.spend(double(kWorkToBegin * region.region.triangles.size()));
     options_.part_triangles = 0;  // parts have been cut already
     if (region.region.triangles.size() > 2 * options.retry_triangles) options_.retry_triangles = 0;  // as in a plane
   }
@@ -129,6 +132,13 @@ class Worker {
     return kTimes * (allowance(size) + kEach * double(size));
   }
 
+  /// Of all parts; interfaces and what space asks for need the rest. A try that has begun gets what it takes.
+  double work_in_charts() const {
+    constexpr double kShare = 0.5, kLeastEach = 500;
+    const std::size_t size = region_.region.triangles.size();
+    return std::min(allowance(size), std::max(kShare * budget_.left(), kLeastEach * double(size)));
+  }
+
   /// What is refined here is as long as there were too few nodes.
   bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
 
@@ -139,9 +149,9 @@ class Worker {
     if (!widened) return is_valid;
     SurfaceMesh narrow = std::exchange(mesh_, std::move(*widened));
     space::Faults faults = faults_;
-    const std::size_t spent = effort_.spent;
+    const Budget before = budget_;
     const bool is_wider_valid = improve_as_it_is();
-    effort_.spent = spent;  // at most what improve() costs anyway: tries of other fronts need not pay for it
+    budget_ = before;  // at most what improve() costs anyway: tries of other fronts need not pay for it
     if (is_wider_valid &&
         (!is_valid || (doubtful() <= faults.doubtful.size() && smallest_own_sine(mesh_) > smallest_own_sine(narrow))))
       return true;
@@ -151,7 +161,7 @@ class Worker {
 
   bool improve_as_it_is() {
     faults_ = space::improve(mesh_, creases_, region_, stretched_, options_.smoothing);
-    effort_.spent += faults_.work;
+    budget_.spend(double(faults_.work));
     return !find_fault();
   }
 
@@ -197,9 +207,9 @@ class Worker {
   }
 
   void straighten_interfaces() {
-    WindowBudget budget(window_allowance());
+    Budget budget(window_allowance());
     straighten(mesh_, creases_, interface_, ground_, budget);
-    effort_.spent += budget.spent();
+    budget_.spend(budget.spent());
     opposite_ = opposite_sides(mesh_);
     division_.is_cut = sides_on(mesh_, interface_);
     const std::vector<bool> is_crease = sides_on(mesh_, creases_);
@@ -220,16 +230,20 @@ class Worker {
     std::vector<char> is_stretched(parts, 0);
     const parallel::SharedProgress shared(options_.progress, double(mesh_.faces.size()));
     std::vector<ProgressCallback> progress;
-    for (const auto& part : division_.parts) progress.push_back(shared.part(double(part.size())));
+    std::vector<Budget> budgets;
+    const double most = work_in_charts();
+    for (const auto& part : division_.parts) {
+      progress.push_back(shared.part(double(part.size())));
+      budgets.emplace_back(part_of(most, part.size(), mesh_.faces.size(), parts));
+    }
     parallel::for_each_index(parts, [&](std::size_t p) {
       if (shared.is_over()) return;
       Options own = options_;
       own.progress = progress[p];
-      const double most = part_of(effort_.allowed, division_.parts[p].size(), mesh_.faces.size(), parts);
       const LaidOut& part = *division_.laid_out[p];
       try {
         if (has_no_chart_[p]) return;
-        PartWork work = work_on_part(part, ground_, own, most, task_, reports[p], records[p], tries_);
+        PartWork work = work_on_part(part, ground_, own, budgets[p], task_, reports[p], records[p], tries_);
         is_stretched[p] = work.is_stretched;
         results[p] = {&part.piece, std::move(work.mesh), {}};
         results[p].lifted = lift(results[p].mesh, part.piece, part.chart, background());
@@ -238,6 +252,7 @@ class Worker {
       }
     });
     shared.finish();
+    for (const Budget& own : budgets) budget_.spend(own.spent());
     for (std::size_t p = 0; p < parts; ++p) {
       if (!has_no_chart_[p]) continue;
       reports[p] = {};
@@ -252,7 +267,6 @@ class Worker {
     }
     for (std::size_t stage = 1; stage < work_.stages.size(); ++stage) work_.stages[stage] = at_stage(stage, records);
     std::erase_if(results, [](const Reworked& result) { return !result.piece; });
-    for (const Reworked& result : results) effort_.spent += result.mesh.work();
     note_stretched(is_stretched);
     mesh_ = replace(mesh_, results);
     if (results.size() < parts) pair_up_the_rest();
@@ -271,7 +285,7 @@ class Worker {
     for (Index p = 0; p < has_no_chart_.size(); ++p)
       if (has_no_chart_[p])
         for (Index v : division_.laid_out[p]->piece.vertex) needs_cleaning_[v] = 1;
-    effort_.spent += pair_up(mesh_, creases_, background(), options_.smoothing);
+    budget_.spend(double(pair_up(mesh_, creases_, background(), options_.smoothing)));
     needs_cleaning_.resize(mesh_.points.size(), 1);
   }
 
@@ -294,7 +308,7 @@ class Worker {
     std::vector<char> waiting = std::move(needs_cleaning_);
     waiting.resize(mesh_.points.size(), 0);
     for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
-    work_in_windows(std::move(waiting), kCleaningWindow, clean_window);
+    work_in_windows(std::move(waiting), kCleaningWindow, clean_window, window_allowance());
   }
 
   /// True if it has changed the mesh. Windows cover all of it soon: where it is large, or has few irregular nodes, they
@@ -307,18 +321,19 @@ class Worker {
       std::vector<char> irregular = irregular_nodes(mesh_, creases_);
       const auto count = std::count(irregular.begin(), irregular.end(), 1);
       if (double(count) < kFewIrregular * double(mesh_.faces.size())) break;
-      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window)) break;
+      const double allowed = std::min(budget_.left(), window_allowance());
+      if (!work_in_windows(std::move(irregular), kCancellingWindow, cancel_in_window, allowed)) break;
       changed = true;
     }
     return changed;
   }
 
   /// True if a window has changed.
-  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work) {
+  bool work_in_windows(std::vector<char> waiting, const WindowSize& size, Work work, double most) {
     const Ground ground{background(), stretched_.empty() ? nullptr : ground_.field};
     constexpr double kShares = 3;  // most windows need less than their share, some more
     bool changed = false;
-    WindowBudget budget(window_allowance());
+    Budget budget(most);
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
       opposite_ = opposite_sides(mesh_);
@@ -335,19 +350,19 @@ class Worker {
       });
       std::vector<Reworked> results;
       for (WindowResult& window : reworked) {
-        budget.spend(window.work);
+        budget.spend(double(window.work));
         if (window.better) results.push_back(std::move(*window.better));
       }
       changed = changed || !results.empty();
       mesh_ = replace_where_simple(mesh_, std::move(results));
     }
-    effort_.spent += budget.spent();
+    budget_.spend(budget.spent());
     return changed;
   }
 
   const CurvedRegion& region_;
   Options options_;
-  Effort& effort_;
+  Budget& budget_;
   const Task task_;
   const Distrust& distrust_;
   const Tries tries_;
@@ -377,13 +392,14 @@ struct Best {
 
 }  // namespace
 
-bool Effort::has_more_for(std::size_t triangles, double times) const {
+bool has_more_for(const Budget& budget, std::size_t triangles, double times) {
   constexpr double kTries = 4, kTriesOfSmall = 8;  // in allowances; the first try takes two or three
   constexpr std::size_t kSmall = 2000;
-  return double(spent) < times * (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
+  return !budget.is_spent() &&
+         budget.spent() < times * (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
 }
 
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {
   constexpr int kTries = 4;
   constexpr std::size_t kSmall = 5000;  // triangles, so that a doubtful element is worth another try
   constexpr std::size_t kFew = 50;      // so that it is worth all of them
@@ -393,9 +409,9 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   Best best;
   std::size_t fewest_turned = std::numeric_limits<std::size_t>::max();
   for (int i = 1; i <= kTries; ++i) {
-    if (best.work && !effort.has_more_for(size)) break;
-    distrust.all = distrust.all || i == kTries || !effort.has_more_for(size);
-    Worker worker(region, options, effort, task, distrust);
+    if (best.work && !has_more_for(budget, size)) break;
+    distrust.all = distrust.all || i == kTries || !has_more_for(budget, size);
+    Worker worker(region, options, budget, task, distrust);
     if (worker.run()) {
       const bool is_new = worker.learn(distrust);
       best.consider(worker);
@@ -416,8 +432,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   if (is_hopeful && size <= options.retry_triangles) {
     const Distrust nothing;
     for (const Options& variant : few_front_variants(options)) {
-      if (!effort.has_more_for(size)) break;
-      Worker worker(region, variant, effort, task, nothing);
+      if (!has_more_for(budget, size)) break;
+      Worker worker(region, variant, budget, task, nothing);
       if (!worker.run()) continue;
       best.consider(worker);
       if (best.doubtful == 0 || size > kFew) return std::move(*best.work);
@@ -429,15 +445,15 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Ef
   const int refinings = size <= kFew && is_hopeful ? 3 : best.work || size > kNotMany ? 0 : size <= kCoarse ? 3 : 1;
   Distrust nodes;
   while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
-         effort.has_more_for(size))
-    if (Worker worker(region, options, effort, task, nodes); worker.run()) best.consider(worker);
+         has_more_for(budget, size))
+    if (Worker worker(region, options, budget, task, nodes); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
   throw *first;
 }
 
-std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Effort& effort, Task task) {
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {
   const Distrust nothing;
-  Worker worker(region, options, effort, task, nothing, Tries::one);
+  Worker worker(region, options, budget, task, nothing, Tries::one);
   if (!worker.run() || worker.doubtful() > 0) return {};
   return worker.result();
 }

@@ -18,21 +18,21 @@
 namespace qmorph {
 namespace {
 
-kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, double allowed,
+kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, Budget& budget,
                           ConversionReport& report, Record& record) {
   if (options.layers)
-    if (auto quads = stretch::convert_stretched(region, plane, options, allowed, report, record))
+    if (auto quads = stretch::convert_stretched(region, plane, options, budget, report, record))
       return std::move(quads->mesh);
-  return convert_region(region, plane, options, allowed, report, record);
+  return convert_region(region, plane, options, budget, report, record);
 }
 
 /// With rounded coordinates; nothing where they are not to be rounded, or where an element would be bad without that.
 std::optional<kernel::Mesh> convert_rounded(const Region& region, const Plane& plane, const Options& options,
-                                            double allowed, ConversionReport& report, Record& record) {
+                                            Budget& budget, ConversionReport& report, Record& record) {
   const auto rounded = canonical::rounded(region, plane);
   if (!rounded) return {};
   try {
-    kernel::Mesh mesh = convert_flat(rounded->region, rounded->plane, options, allowed, report, record);
+    kernel::Mesh mesh = convert_flat(rounded->region, rounded->plane, options, budget, report, record);
     canonical::put_back(mesh, *rounded, region);
     for (auto& stage : record.stages)
       if (stage) canonical::put_back(*stage, *rounded, region);
@@ -47,17 +47,19 @@ std::optional<kernel::Mesh> convert_rounded(const Region& region, const Plane& p
 /// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
 /// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
 SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
-                              std::vector<bool>* stuck) {
+                              Budget& budget, std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
-  if (!plane) return chart::convert_curved(patch, options, stuck);
+  if (!plane) return chart::convert_curved(patch, options, budget, stuck);
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false);
-  const auto work = [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
+  const auto work = [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report,
+                        Record& record) {
     try {
       const Region& region = surface.regions[r];
-      if (auto mesh = convert_rounded(region, surface.plane, own, allowed, report, record)) return std::move(*mesh);
-      return convert_flat(region, surface.plane, own, allowed, report, record);
+      if (auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record))
+        return std::move(*mesh);
+      return convert_flat(region, surface.plane, own, budget_of_region, report, record);
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = true;
@@ -66,7 +68,7 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
       return kernel::Mesh();
     }
   };
-  SurfaceWork result = work_on_regions(surface, options, work);
+  SurfaceWork result = work_on_regions(surface, options, budget, work);
   for (std::size_t r = 0; r < is_stuck.size(); ++r)
     if (is_stuck[r])
       for (Index v : surface.regions[r].node) (*stuck)[v] = true;
@@ -111,11 +113,13 @@ bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
   return is_any;
 }
 
+}  // namespace
+
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
 /// layers around it are left to the front as well, and at last all of them.
-SurfaceWork convert_patch(const Patch& patch, const Options& options) {
+SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& budget) {
   constexpr int kTries = 2;
-  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, nullptr);
+  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, budget, nullptr);
   const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
@@ -128,17 +132,15 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options) {
       if (!layers->patch.triangles.empty() && mark_grids(whole, stuck)) continue;
     }
     std::vector<bool> stuck_now(layers->patch.points.size(), false);
-    SurfaceWork work = convert_triangles(layers->patch, plane, options, &stuck_now);
+    SurfaceWork work = convert_triangles(layers->patch, plane, options, budget, &stuck_now);
     if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
       add_layers(patch, *layers, plane, options, work);
       return work;
     }
     for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
   }
-  return convert_triangles(patch, plane, options, nullptr);
+  return convert_triangles(patch, plane, options, budget, nullptr);
 }
-
-}  // namespace
 
 Conversion convert(const Patch& patch, const Options& options) { return work_on_patch(patch, options, convert_patch); }
 

@@ -63,8 +63,11 @@ struct Front {
 
 /// What an attempt costs however small the region is.
 constexpr std::size_t kWorkPerAttempt = 200;
-/// Of a triangle that is added where a fan is graded: the front's, above all.
-constexpr std::size_t kWorkToGrade = 150;
+/// What the front and all that is not counted cost another attempt: for each triangle, and however few there are. (The
+/// first is no improvement.)
+constexpr std::size_t kWorkToAdvance = 250, kWorkToBegin = 500;
+/// Of a triangle that is added where a fan is graded.
+constexpr std::size_t kWorkToGrade = 100;
 /// What tries may cost before the last of them, however small the region is and for each triangle; and for each
 /// triangle if a corner is poor after these.
 constexpr std::size_t kWorkForAnyTries = 20'000, kWorkForTries = 200, kWorkIfPoor = 2000;
@@ -78,16 +81,17 @@ constexpr int kQuickNodes = 1;
 
 class RegionConverter {
  public:
-  /// `allowed`: work that all attempts together may cost, more or less.
-  RegionConverter(const Region& region, const Plane& plane, const Options& options, double allowed, Tries tries)
+  /// `budget`: for all attempts together.
+  RegionConverter(const Region& region, const Plane& plane, const Options& options, Budget& budget, Tries tries)
       : region_(region),
         plane_(plane),
         options_(options),
         is_small_(is_small(region, options)),
-        to_climb_(may_climb() ? std::min(kShareToClimb * allowed, double(kWorkToClimb * region.triangles.size())) : 0),
-        allowed_(allowed - to_climb_),
+        budget_(budget),
         tries_(tries) {
     start();
+    to_climb_ = work_to_climb();
+    allowed_ = budget.left() - to_climb_;
   }
 
   Attempt run() {
@@ -105,6 +109,13 @@ class RegionConverter {
         climb(result);
       } else {
         result = begin(std::move(start_), options_, allowed_);
+        if (result.fault) {
+          Attempt paired = pair_triangles();
+          take_chords(paired);
+          if (!paired.fault) return paired;
+          Pipeline(result.options, result.report, result.record, input_, left()).clean(result.mesh);
+          result.fault.reset();
+        }
         finish(result);
         take_rows(result);
         take_chords(result);
@@ -120,9 +131,6 @@ class RegionConverter {
     return paired;
   }
 
-  /// Of all attempts so far.
-  std::size_t cost() const { return cost_; }
-
  private:
   /// Makes the mesh that the front begins with.
   void start() {
@@ -133,7 +141,8 @@ class RegionConverter {
     grade_fans(start_);
     // What makes fans better is no reason to spend more on the region.
     const std::size_t size = count_faces(start_, 3), before = region_.triangles.size();
-    if (size > before) start_.add_work(kWorkToGrade * (size - before));
+    if (size > before) budget_.spend(double(kWorkToGrade * (size - before)));
+    graded_ = double(size) / double(before);
   }
 
   /// In all, and not by a quad that is poorer than the others' worst.
@@ -161,7 +170,7 @@ class RegionConverter {
     for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
       auto rows = bands::lay_rows(*band, region_.points, costs);
       if (!rows || double(cost_) > allowed_) return;
-      Attempt laid = begin(std::move(*rows), options_, allowed_ - double(cost_), Way::without_front);
+      Attempt laid = begin(std::move(*rows), options_, left(), Way::without_front);
       finish(laid);
       const Worth one = judge(laid.mesh), other = judge(best.mesh);
       // A poor quad more is too high a price for rows.
@@ -180,7 +189,7 @@ class RegionConverter {
       if (best.fault || worth.least >= kPoor) return;
       auto laid_mesh = lay(region_);
       if (!laid_mesh) continue;
-      Attempt laid = begin(std::move(*laid_mesh), options_, allowed_ - double(cost_), Way::without_front);
+      Attempt laid = begin(std::move(*laid_mesh), options_, left(), Way::without_front);
       finish(laid);
       if (laid.fault || !is_better(judge(laid.mesh), worth)) continue;
       // Rows of a crescent are long and thin anyway; then right angles are what is left to gain.
@@ -199,7 +208,7 @@ class RegionConverter {
 
   Attempt pair_triangles() {
     if (start_.face_slots() == 0) start();  // the front has taken it
-    Attempt paired = begin(start_, options_, allowed_ - double(cost_), Way::without_front);
+    Attempt paired = begin(start_, options_, left(), Way::without_front);
     finish(paired);
     return paired;
   }
@@ -210,7 +219,7 @@ class RegionConverter {
   void take_pairs(Attempt& best) {
     constexpr double kPoor = 0.3, kAsGood = 0.05;
     const Worth worth = judge(best.mesh);
-    const bool is_astray = worth.growth > 2 * kFairGrowth;
+    const bool is_astray = worth.growth > 2 * kFairGrowth * graded_;
     const bool has_no_room = is_small_ && !plane_.curved && worth.least < kPoor;
     if (best.fault || !(is_astray || has_no_room)) return;
     Attempt paired = pair_triangles();
@@ -262,14 +271,12 @@ class RegionConverter {
 
   /// Goes on where the share that an attempt had was not enough.
   void spend_rest(Attempt& best) {
-    const double left = allowed_ - double(cost_);
     if (best.fault || !is_small_ || plane_.curved || tries_ == Tries::one || best.report.budgets_spent == 0 ||
-        left <= 0)
+        left() <= 0)
       return;
-    Attempt more{best.mesh, best.options, double(best.mesh.work()) + left};
+    Attempt more{best.mesh, best.options, double(best.mesh.work()) + left()};
     more.is_quick = true;  // cleaning is not done
     finish(more);
-    best.mesh.add_work(more.mesh.work() - best.mesh.work());
     if (more.fault || judge(more.mesh).sum() <= judge(best.mesh).sum()) return;
     best.mesh = std::move(more.mesh);
     best.report.budgets_spent = more.report.budgets_spent;
@@ -277,9 +284,18 @@ class RegionConverter {
       if (more.record.stages[i]) best.record.stages[i] = std::move(more.record.stages[i]);
   }
 
-  bool may_climb() const {
-    return is_small_ && !plane_.curved && options_.smoothing.method == SmoothingMethod::shape_energy;
+  double work_to_climb() const {
+    const bool may_climb = is_small_ && !plane_.curved && options_.smoothing.method == SmoothingMethod::shape_energy;
+    const auto most = double(kWorkToClimb * region_.triangles.size());
+    return may_climb ? std::min(kShareToClimb * budget_.left(), most) : 0;
   }
+
+  void spend(std::size_t work) {
+    cost_ += work;
+    budget_.spend(double(work));
+  }
+  /// Of what is allowed for all but climb().
+  double left() const { return budget_.left() - to_climb_; }
 
   /// Changes one by one what a small region has become in the end.
   void climb(Attempt& best) {
@@ -288,8 +304,7 @@ class RegionConverter {
     kernel::Mesh mesh = best.mesh;
     const std::size_t changes =
         cleanup::raise_worth(mesh, options_.smoothing, {mesh, std::size_t(to_climb_)}) + lift_worst(mesh);
-    cost_ += mesh.work() - spent;
-    best.mesh.add_work(mesh.work() - spent);
+    spend(mesh.work() - spent);
     if (changes == 0) return;
     raise_corners(mesh, options_.smoothing);
     const Worth before = judge(best.mesh), after = judge(mesh);
@@ -303,8 +318,7 @@ class RegionConverter {
   std::size_t lift_worst(kernel::Mesh& mesh) const {
     constexpr double kBoundaryIsPoor = 0.3;  // under that it nearly always is, and nothing was found
     constexpr std::size_t kFew = 150;        // triangles: in larger regions it costs much and brings little
-    const double allowed =
-        std::min({kWorkToLift * double(region_.triangles.size()), kMostToLift, allowed_ - double(cost_)});
+    const double allowed = std::min({kWorkToLift * double(region_.triangles.size()), kMostToLift, left()});
     if (allowed <= 0 || region_.triangles.size() > kFew || judge(mesh).least < kBoundaryIsPoor) return 0;
     const std::size_t changes = cleanup::lift_worst(mesh, options_.smoothing, {mesh, std::size_t(allowed)});
     if (changes > 0) smoothing::smooth(mesh, options_.smoothing);
@@ -330,12 +344,13 @@ class RegionConverter {
     for (; next_variant_ < variants.size(); ++next_variant_) {
       const Options& options = variants[next_variant_];
       if ((next_variant_ + 2) * size > most_triangles || cost_ - before > most_work) break;
-      if (double(cost_ + best.mesh.work()) > allowed_) {
+      if (double(best.mesh.work()) > left()) {
         ++best.report.budgets_spent;
         break;
       }
       if (would_repeat(options.front)) continue;
-      Attempt other = begin(start_, options, allowed_ - double(cost_), Way::one_of_many, is_quick);
+      budget_.spend(double(kWorkToBegin + kWorkToAdvance * size));
+      Attempt other = begin(start_, options, left(), Way::one_of_many, is_quick);
       if (!other.fault && count_faces(other.mesh, 4) <= most_faces) tries.push_back(std::move(other));
     }
   }
@@ -352,15 +367,18 @@ class RegionConverter {
     if (is_small_) result.options.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(result.options, result.report, result.record, input_, allowed);
     Front front{};
-    if (way != Way::without_front)
-      pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
+    const bool is_astray =
+        way != Way::without_front &&
+        !pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
     cleanup::CavityLimits limits;
     if (is_quick) limits.most_nodes = kQuickNodes;
     if (way == Way::one_of_many && is_repeated(front, result.mesh))
       result.fault = SurfaceError("the front has made this before");
+    else if (way == Way::with_front && is_astray)
+      result.fault = SurfaceError("the front has gone astray");
     else
       pipeline.clean(result.mesh, limits);
-    cost_ += result.mesh.work();
+    spend(result.mesh.work());
     if (way == Way::one_of_many && !result.fault) result.promise = judge(result.mesh).sum();
     return result;
   }
@@ -381,7 +399,7 @@ class RegionConverter {
     if (result.is_quick) pipeline.clean_further(result.mesh);
     pipeline.polish(result.mesh);
     if (!plane_.curved) pipeline.open_tips(result.mesh);
-    cost_ += result.mesh.work() - before;
+    spend(result.mesh.work() - before);
     if (is_small_) raise_corners(result.mesh, options_.smoothing);
     if (is_small_ && wants_stages(result.options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
@@ -405,7 +423,7 @@ class RegionConverter {
     Pipeline pipeline(moved.options, moved.report, moved.record, input_, allowed_);
     pipeline.polish(moved.mesh);
     const Worth after = judge(moved.mesh);
-    cost_ += moved.mesh.work();
+    spend(moved.mesh.work());
     if (after.least > before.least + kMuch) result = std::move(moved);
     result.fault = find_fault(result.mesh, region_, plane_);
     if (result.fault || std::max(before.least, after.least) < kPoorestCell) return {};
@@ -425,7 +443,7 @@ class RegionConverter {
     Attempt result;
     auto mesh = convert_in_parts(std::move(start_), input_, plane_, options_, allowed_, result.report, result.record);
     if (mesh) {
-      cost_ += mesh->work();
+      spend(mesh->work());
       result.mesh = std::move(*mesh);
       if (!find_fault(result.mesh, region_, plane_)) return result;
     }
@@ -449,28 +467,29 @@ class RegionConverter {
   const Region& region_;
   const Plane& plane_;
   const Options& options_;
-  const bool is_small_;    ///< so that a second try is allowed
-  const double to_climb_;  ///< work that is kept for climb()
-  const double allowed_;   ///< for all the rest
+  const bool is_small_;  ///< so that a second try is allowed
+  Budget& budget_;
+  double graded_ = 1;    ///< triangles of `start_` for each of the region's
+  double to_climb_ = 0;  ///< work that is kept for climb()
+  double allowed_ = 0;   ///< for all the rest
   const Tries tries_;
-  std::size_t cost_ = 0;
+  std::size_t cost_ = 0;  ///< of all attempts so far
   std::vector<Front> fronts_;
   std::size_t next_variant_ = 0;  ///< of front_variants()
   kernel::Mesh start_;            ///< what the front begins with
   kernel::Mesh input_;            ///< as it came, if stages are measured
 };
 
-/// The same with an ear set aside: the one triangle that an odd boundary leaves. Adds what that cost.
+/// The same with an ear set aside: the one triangle that an odd boundary leaves.
 std::optional<Attempt> convert_without_ear(const Region& region, const Plane& plane, const Options& options,
-                                           double allowed, Tries tries, std::size_t& cost) {
-  if (region.boundary_sides % 2 == 0 || !is_small(region, options) || allowed <= 0) return {};
+                                           Budget& budget, Tries tries) {
+  if (region.boundary_sides % 2 == 0 || !is_small(region, options) || budget.is_spent()) return {};
   const std::optional<Ear> ear = sharpest_ear(region);
   if (!ear) return {};
   try {
     const Region rest = cut_off(region, *ear);
-    RegionConverter converter(rest, plane, options, allowed, tries);
-    Attempt result = converter.run();
-    cost += converter.cost();
+    budget.spend(double(kWorkToBegin + kWorkToAdvance * rest.triangles.size()));
+    Attempt result = RegionConverter(rest, plane, options, budget, tries).run();
     put_back(result.mesh, *ear);
     ++result.report.leftover_triangles;  // the front leaves the ear, too
     for (auto& stage : result.record.stages)
@@ -483,15 +502,12 @@ std::optional<Attempt> convert_without_ear(const Region& region, const Plane& pl
 
 }  // namespace
 
-kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, double allowed,
+kernel::Mesh convert_region(const Region& region, const Plane& plane, const Options& options, Budget& budget,
                             ConversionReport& report, Record& record, Tries tries) {
   const std::size_t size = region.triangles.size();
-  RegionConverter converter(region, plane, options, allowed, tries);
-  Attempt best = converter.run();
-  std::size_t cost = converter.cost();
-  if (auto other = convert_without_ear(region, plane, options, allowed - double(cost), tries, cost))
+  Attempt best = RegionConverter(region, plane, options, budget, tries).run();
+  if (auto other = convert_without_ear(region, plane, options, budget, tries))
     if (is_worth_more(worth_of(other->mesh, size), worth_of(best.mesh, size))) best = std::move(*other);
-  best.mesh.add_work(cost - best.mesh.work());
   report = best.report;
   record = std::move(best.record);
   return std::move(best.mesh);

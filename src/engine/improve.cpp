@@ -11,12 +11,12 @@
 namespace qmorph {
 namespace {
 
-SurfaceWork improve_patch(const Patch& patch, const Options& options) {
+SurfaceWork improve_patch(const Patch& patch, const Options& options, Budget& budget) {
   if (patch.triangles.empty() && patch.quads.empty()) return {};
   const Patch halves = cut_quads(patch);
   const std::size_t triangles = patch.triangles.size();
   const std::optional<Plane> plane = find_plane(halves);
-  if (!plane) return chart::improve_curved(patch, options);
+  if (!plane) return chart::improve_curved(patch, options, budget);
   const Surface surface(halves, *plane);
   std::vector<ImproveStart> starts;
   std::vector<Region> regions;
@@ -26,10 +26,10 @@ SurfaceWork improve_patch(const Patch& patch, const Options& options) {
   }
   require_no_overlap(regions, surface.plane);
   return work_on_regions(
-      surface, options,
-      [&](std::size_t r, const Options& own, double allowed, ConversionReport& report, Record& record) {
+      surface, options, budget,
+      [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report, Record& record) {
         const kernel::Mesh input = join_halves(surface.regions[r], triangles);
-        return improve_region(starts[r], input, surface.plane, own, allowed, report, record);
+        return improve_region(starts[r], input, surface.plane, own, budget_of_region, report, record);
       });
 }
 

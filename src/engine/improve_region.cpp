@@ -108,9 +108,9 @@ ImproveStart start_improving(const Region& region, kernel::Mesh mesh, const Plan
 }
 
 kernel::Mesh improve_region(const ImproveStart& start, const kernel::Mesh& input, const Plane& plane,
-                            const Options& options, double allowed, ConversionReport& report, Record& record) {
+                            const Options& options, Budget& budget, ConversionReport& report, Record& record) {
   const Figures before = figures_of(input);
-  Pipeline pipeline(options, report, record, input, allowed);
+  Pipeline pipeline(options, report, record, input, budget.left());
   kernel::Mesh best = make_anew(start, plane, pipeline);
   Figures reached = figures_of(best);
   const auto consider = [&](kernel::Mesh mesh) {

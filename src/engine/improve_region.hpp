@@ -2,6 +2,7 @@
 #pragma once
 /// One region of triangles and quads becomes better quads.
 
+#include "engine/budget.hpp"
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
 #include "kernel/mesh.hpp"
@@ -22,9 +23,9 @@ ImproveStart start_improving(const Region& region, kernel::Mesh mesh, const Plan
 /// The first of several results that is in no way worse than `input`, the mesh as it came: made anew by all stages but
 /// the front (and that, too, where there is no other way); no more changed than triangles ask for; as it was; made from
 /// triangles alone, whatever quads were there. Where triangles can go in none of these ways, the one with the fewest
-/// poor quads, and it is counted. All for about as much work as is allowed (allowance.hpp). \throws SurfaceError if no
+/// poor quads, and it is counted. All for about as much work as the budget has left. \throws SurfaceError if no
 /// valid result was found
 kernel::Mesh improve_region(const ImproveStart& start, const kernel::Mesh& input, const Plane& plane,
-                            const Options& options, double allowed, ConversionReport& report, Record& record);
+                            const Options& options, Budget& budget, ConversionReport& report, Record& record);
 
 }  // namespace qmorph

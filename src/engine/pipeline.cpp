@@ -31,8 +31,9 @@ using Clock = std::chrono::steady_clock;
 /// there for the next.
 constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
                  kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
-/// The share that repairs in twos may cost: many tries for few elements.
-constexpr double kRepairInTwos = 0.01;
+/// The share that repairs in twos may cost, which are many tries for few elements; more where not much is allowed, as
+/// long as it is little for a face.
+constexpr double kRepairInTwos = 0.01, kMostRepairInTwos = 0.018, kRepairInTwosOfFace = 54;
 
 Pipeline::Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start,
                    double allowed)
@@ -60,19 +61,22 @@ void Pipeline::end_stage(Stage stage, const kernel::Mesh& mesh, double& seconds)
   start_ = Clock::now();
 }
 
-void Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions) {
+bool Pipeline::advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions) {
   mesh.check_commits(kChecksAlways || options_.check_each_step);
   front::MorphSettings settings;
   settings.check_each_step = options_.check_each_step;
   settings.progress = [&](double share) { progress("front", 0.5 * share); };
   settings.observer = options_.observer;
   settings.decisions = decisions;
+  bool is_astray = false;
+  settings.is_astray = &is_astray;
   settings.frame = {plane.origin, plane.axis_u, plane.axis_v};
   if (options_.observer) settings.lift = plane.curved;
   if (auto watcher = front::morph(mesh, options_.front, settings)) record_.fronts.push_back(std::move(watcher));
   report_.front_quads += count_faces(mesh, 4);
   report_.leftover_triangles += count_faces(mesh, 3);
   end_stage(Stage::front, mesh, report_.front_seconds);
+  return !is_astray;
 }
 
 kernel::Budget Pipeline::until(const kernel::Mesh& mesh, double share) const {
@@ -149,7 +153,10 @@ void Pipeline::polish(kernel::Mesh& mesh) {
   note(shape);
   cleanup::replace_poor_cavities(mesh, options_.smoothing, cavities);
   note(cavities);
-  cleanup::repair_in_twos(mesh, options_.smoothing, until(mesh, std::min(1.0, spent(mesh) + kRepairInTwos)));
+  const double in_twos = std::clamp(kRepairInTwosOfFace * double(mesh.face_slots()), kRepairInTwos * allowed_,
+                                    kMostRepairInTwos * allowed_);
+  cleanup::repair_in_twos(mesh, options_.smoothing,
+                          until(mesh, std::min(1.0, spent(mesh) + (allowed_ > 0 ? in_twos / allowed_ : 0))));
   // Better shapes may have opened a way for triangles that found none before.
   if (count_faces(mesh, 3) > 1) {
     const kernel::Budget last = until(mesh, 1);

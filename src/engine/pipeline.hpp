@@ -21,12 +21,12 @@ namespace qmorph {
 class Pipeline {
  public:
   /// `start` is the region before all stages. Nothing is copied unless the observer of the options wants it.
-  /// Improvement ends when all stages together have cost as much work as is allowed (allowance.hpp).
+  /// Improvement ends when all stages together have cost as much work as is allowed (budget.hpp).
   Pipeline(const Options& options, ConversionReport& report, Record& record, const kernel::Mesh& start, double allowed);
 
   /// Triangles to quads, as far as the front comes. `plane` is for the observer; `decisions`, if not null, is told what
-  /// the constants have decided. \throws Cancelled, as all stages do
-  void advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions = nullptr);
+  /// the constants have decided. False if the front has gone astray. \throws Cancelled, as all stages do
+  bool advance_front(kernel::Mesh& mesh, const Plane& plane, front::Decisions* decisions = nullptr);
   /// Everything after the front. Takes any mesh of valid triangles and quads.
   void finish(kernel::Mesh& mesh);
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/allowance.hpp"
+#include "engine/budget.hpp"
 #include "engine/canonical/work.hpp"
 #include "engine/collector.hpp"
 #include "parallel/for_each.hpp"
@@ -62,8 +62,8 @@ SurfaceError with_node(const SurfaceError& error, const Surface& surface, const 
   return SurfaceError(error.what(), details);
 }
 
-SurfaceWork work_and_measure(const Patch& patch, const Options& options, const PatchWork& work) {
-  SurfaceWork result = canonical::work_on_numbered(patch, options, work);
+SurfaceWork work_and_measure(const Patch& patch, const Options& options, Budget& budget, const PatchWork& work) {
+  SurfaceWork result = canonical::work_on_numbered(patch, options, budget, work);
   const QuadMesh& mesh = result.conversion.mesh;
   result.conversion.report.sizes = directed_sizes(patch, mesh.points, mesh.quads);
   if (wants_stages(options)) result.record.size_ratios = size_ratios(patch, mesh);
@@ -78,21 +78,27 @@ Surface::Surface(const Patch& surface, const Plane& its_plane) : patch(surface),
   regions = cut_into_regions(patch, plane_points);
 }
 
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work) {
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budget& budget, const Work& work) {
   std::vector<kernel::Mesh> meshes(surface.regions.size());
   std::vector<ConversionReport> reports(meshes.size());
   std::vector<Record> records(meshes.size());
   std::vector<ProgressCallback> progress;
   const std::size_t triangles = surface.patch.triangles.size();
   const parallel::SharedProgress shared(options.progress, double(triangles));
-  for (const Region& region : surface.regions) progress.push_back(shared.part(double(region.triangles.size())));
+  std::vector<Budget> budgets;
+  const double allowed = std::min(allowance(triangles), budget.left_for_another());
+  for (const Region& region : surface.regions) {
+    const auto size = double(region.triangles.size());
+    progress.push_back(shared.part(size));
+    budgets.emplace_back(share_of(allowed, size, double(triangles), meshes.size()));
+  }
+  const SpentInAll spent_in_all(budget, budgets);
   parallel::for_each_index(meshes.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
-    const double allowed = part_of(allowance(triangles), surface.regions[r].triangles.size(), triangles, meshes.size());
     try {
-      meshes[r] = work(r, own, allowed, reports[r], records[r]);
+      meshes[r] = work(r, own, budgets[r], reports[r], records[r]);
     } catch (const SurfaceError& error) {
       throw with_node(error, surface, surface.regions[r]);
     }
@@ -115,7 +121,8 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, cons
 
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result;
-  parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, work); });
+  Budget budget(budget_of_call(weight(patch)));
+  parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, budget, work); });
   if (options.observer) result.record.tell(*options.observer, 0);
   return std::move(result.conversion);
 }
@@ -125,39 +132,72 @@ namespace {
 /// Surfaces side by side.
 class Patches {
  public:
-  Patches(const std::vector<const Patch*>& patches, const Options& options, const PatchWork& work)
+  Patches(const std::vector<const Patch*>& patches, const Options& options, const PatchWork& work,
+          std::optional<double> allowed)
       : patches_(patches), options_(options), work_(work), outcomes_(patches.size()), records_(patches.size()) {
     double total = 0;
     for (const Patch* patch : patches) total += weight(*patch);
     shared_ = parallel::SharedProgress(options.progress, total);
-    for (const Patch* patch : patches) progress_.push_back(shared_.part(weight(*patch)));
+    for (const Patch* patch : patches) {
+      progress_.push_back(shared_.part(weight(*patch)));
+      budgets_.emplace_back(share_of(allowed.value_or(budget_of_call(total)), weight(*patch), total, patches.size()));
+    }
   }
 
   std::vector<Outcome> run() {
-    parallel::with_threads(options_.threads,
-                           [&] { parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i); }); });
+    parallel::with_threads(options_.threads, [&] {
+      parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i, progress_[i]); });
+      const std::vector<std::size_t> again = share_out_the_rest();
+      parallel::for_each_index(again.size(), [&](std::size_t k) {
+        const ProgressCallback& progress = progress_[again[k]];
+        work_on(again[k], progress ? [&](std::string_view stage, double) { return progress(stage, 1); } : progress);
+      });
+    });
     shared_.finish();
     for (std::size_t i = 0; options_.observer && i < patches_.size(); ++i) records_[i].tell(*options_.observer, i);
     return std::move(outcomes_);
   }
 
  private:
-  void work_on(std::size_t i) {
+  /// What surfaces have not spent is for those that could have made use of more, as far as it is much more. Returns
+  /// their numbers; they begin again.
+  std::vector<std::size_t> share_out_the_rest() {
+    constexpr double kMuchMore = 1.5;
+    double rest = 0, wanted = 0;
+    std::vector<std::size_t> again;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      rest += budgets_[i].left();
+      if (could_use_more(i)) again.push_back(i), wanted += budgets_[i].allowed();
+    }
+    const double times = wanted > 0 ? rest / wanted : 0;
+    if (times < kMuchMore) return {};
+    for (std::size_t i : again) budgets_[i] = Budget(times * budgets_[i].allowed());
+    return again;
+  }
+
+  bool could_use_more(std::size_t i) const {
+    constexpr double kNearlyAll = 0.7;
+    const Budget& budget = budgets_[i];
+    if (!outcomes_[i].conversion || budget.allowed() >= allowance(std::size_t(weight(*patches_[i])))) return false;
+    return budget.spent() > kNearlyAll * budget.allowed() || outcomes_[i].conversion->report.budgets_spent > 0;
+  }
+
+  void work_on(std::size_t i, const ProgressCallback& progress) {
     using Clock = std::chrono::steady_clock;
     if (shared_.is_over()) return;
     const Clock::time_point start = Clock::now();
     Options own = options_;
-    if (progress_[i]) own.progress = std::ref(progress_[i]);
+    if (progress) own.progress = std::ref(progress);
     std::optional<NumberedObserver> numbered;
     if (options_.observer) own.observer = &numbered.emplace(*options_.observer, i);
     try {
-      SurfaceWork result = work_and_measure(*patches_[i], own, work_);
+      SurfaceWork result = work_and_measure(*patches_[i], own, budgets_[i], work_);
       outcomes_[i].conversion = std::move(result.conversion);
       records_[i] = std::move(result.record);
     } catch (const SurfaceError& error) {
-      outcomes_[i].error = error;
+      if (!outcomes_[i].conversion) outcomes_[i].error = error;
     }
-    outcomes_[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    outcomes_[i].seconds += std::chrono::duration<double>(Clock::now() - start).count();
   }
 
   const std::vector<const Patch*>& patches_;
@@ -167,13 +207,14 @@ class Patches {
   std::vector<SurfaceRecord> records_;
   parallel::SharedProgress shared_{{}, 0};
   std::vector<ProgressCallback> progress_;
+  std::vector<Budget> budgets_;
 };
 
 }  // namespace
 
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
-                                     const PatchWork& work) {
-  return Patches(patches, options, work).run();
+                                     const PatchWork& work, std::optional<double> allowed) {
+  return Patches(patches, options, work, allowed).run();
 }
 
 }  // namespace qmorph

@@ -4,8 +4,10 @@
 /// and what they have become is put together.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "engine/budget.hpp"
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
 #include "kernel/mesh.hpp"
@@ -33,22 +35,26 @@ struct SurfaceWork {
 };
 
 /// Makes the region of this number into quads, with options whose `progress` counts for the region, for about as much
-/// work as is allowed (allowance.hpp).
-using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, double allowed,
+/// work as its budget has left.
+using Work = std::function<kernel::Mesh(std::size_t region, const Options& options, Budget& budget,
                                         ConversionReport& report, Record& record)>;
 
-/// Works on all regions, side by side, and puts the results together, as they were after each stage, too, if the
-/// observer wants that.
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, const Work& work);
+/// Works on all regions, side by side, each with its share of the surface's budget, and puts the results together, as
+/// they were after each stage, too, if the observer wants that.
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budget& budget, const Work& work);
 
-/// Makes a patch into quads.
-using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options)>;
+/// Makes a patch into quads, for about as much work as its budget has left.
+using PatchWork = std::function<SurfaceWork(const Patch& patch, const Options& options, Budget& budget)>;
 
 /// `work` on one patch, on the threads that the options allow.
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work);
 
-/// `work` on each patch, side by side.
+/// `work` on each patch, side by side, each with its share of what is allowed for all: what a call may cost, if nothing
+/// is said. What some leave is for those that could use much more, which begin again.
 std::vector<Outcome> work_on_patches(const std::vector<const Patch*>& patches, const Options& options,
-                                     const PatchWork& work);
+                                     const PatchWork& work, std::optional<double> allowed = {});
+
+/// The work of convert(): layers stay the quads that they are, and the front has what is left.
+SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& budget);
 
 }  // namespace qmorph

@@ -24,8 +24,10 @@ constexpr double kFollowedMove = 0.04;
 /// here, whose weight this is: that way rows follow the input's grading. Chosen by us on graded meshes: 0, 0.5, 0.75
 /// gave 8.2, 6.9, 6.0 % irregular nodes on one with embedded points, and sizes nearer to the input's.
 constexpr double kSizeShare = 0.75;
+/// A node with more edges stays: it would be looked at with each step near it, and no move makes all its elements good.
+constexpr std::size_t kMostSpokes = 48;
 
-/// What is around a node, looked at once.
+/// What is around a node, looked at once; of a node with more than kMostSpokes edges, one more than those.
 struct Surrounding {
   std::span<const Spoke> spokes;  ///< counter-clockwise
   int quads = 0;
@@ -52,6 +54,7 @@ Surrounding look_around(Step& step, Index v) {
     if (!is_triangle && was_triangle) s.incoming = Mesh::twin(h), ++s.front_edges;
     if (is_quad && was_quad && s.behind == kNone) s.behind = end;
     was_triangle = is_triangle, was_quad = is_quad;
+    if (step.spokes.size() > kMostSpokes) break;
   }
   s.spokes = step.spokes;
   return s;
@@ -186,6 +189,7 @@ bool smooth_node(Step& step, Index v) {
   kernel::Mesh& mesh = step.mesh;
   if (!mesh.is_free(v)) return false;
   const Surrounding s = look_around(step, v);
+  if (s.spokes.size() > kMostSpokes) return false;
   const Vec2 start = mesh.point(v);
   Vec2 goal;
   if (s.front_edges == 0)

@@ -14,7 +14,7 @@ namespace qmorph::front {
 namespace {
 
 /// A front that makes more steps than this for each triangle of the input is going round in circles.
-constexpr std::size_t kStepsPerTriangle = 6;
+constexpr double kStepsPerTriangle = 2.25;
 /// A front edge longer than this times the edges of the input ahead is split.
 constexpr double kTooLong = 2.2;
 /// How often base edges that were set aside are tried again.
@@ -39,19 +39,23 @@ class Morph {
     if (!reporter_->is_watched()) reporter_.reset();
   }
 
-  std::unique_ptr<FrontObserver> run(const std::function<void(double)>& progress) {
-    advance_all(progress);
+  std::unique_ptr<FrontObserver> run(const MorphSettings& settings) {
+    advance_all(settings.progress);
+    if (settings.is_astray) *settings.is_astray = is_astray_;
     return reporter_ ? reporter_->finish() : nullptr;
   }
 
  private:
   void advance_all(const std::function<void(double)>& progress) {
     const std::size_t quads_expected = mesh_.face_slots() / 2 + 1;
-    const std::size_t most_steps = kStepsPerTriangle * mesh_.face_slots() + 1000;
+    const auto most_steps = std::size_t(kStepsPerTriangle * mesh_.face_slots()) + 1000;
     for (int round = 0; round < kMostRounds; ++round) {
       const std::size_t made_before = made_;
       for (Base base; (base = next_base()).h != kNone;) {
-        if (++steps_ > most_steps) return;
+        if (++steps_ > most_steps) {
+          is_astray_ = true;
+          return;
+        }
         if (progress && steps_ % 4096 == 0) progress(std::min(1.0, double(made_) / double(quads_expected)));
         if (!advance(base)) set_aside(base.h);
         if (check_) check();
@@ -310,6 +314,7 @@ class Morph {
   Decisions* decisions_;
   std::size_t steps_ = 0;
   std::size_t made_ = 0;  ///< steps that were no splits
+  bool is_astray_ = false;
   LoggedColumn<bool> is_aside_;
   std::vector<Index> aside_;
   std::vector<State> states_;  ///< of front edges, by half-edge, as they were last looked at
@@ -326,7 +331,7 @@ class Morph {
 std::unique_ptr<FrontObserver> morph(kernel::Mesh& mesh, const FrontOptions& options, const MorphSettings& settings) {
   Morph morph(mesh, options, settings.check_each_step, settings.decisions);
   if (settings.observer) morph.watch(settings);
-  return morph.run(settings.progress);
+  return morph.run(settings);
 }
 
 }  // namespace qmorph::front

@@ -20,6 +20,9 @@ struct MorphSettings {
   /// The same for a chart of a curved surface; may be empty.
   std::function<Eigen::Vector3d(const Eigen::Vector2d&)> lift{};
   Decisions* decisions = nullptr;  ///< is told what the constants have decided; may be null
+  /// Is told whether the front has ended before it was done, since it took far more steps than there were triangles:
+  /// then it makes more and more small quads where there is no room for good ones. May be null.
+  bool* is_astray = nullptr;
 };
 
 /// Turns triangles into quads from the boundary inwards. Every element of the mesh is valid before and after;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "qmorph/index.hpp"
@@ -13,23 +14,27 @@ namespace qmorph::space {
 /// For each side of elements the same edge's side in the other element. kNone on the boundary and where the surface
 /// parts: at `barriers`, at edges with three elements or more, and between elements that are not oriented alike.
 /// `ends(side)` gives the nodes that a side runs from and to; the first is kNone if there is no such side. Linear for
-/// meshes.
+/// meshes, even where thousands of elements meet at a node.
 template <class Ends>
 std::vector<Index> link_sides(std::size_t nodes, Index sides, const Ends& ends,
                               std::span<const std::array<Index, 2>> barriers) {
   struct Edge {
-    Index upper, side, following;  ///< edges with the same lower node make a chain
+    Index other, side, following;  ///< edges of the same node make a chain
     bool is_barrier;
   };
-  std::vector<Index> first(nodes, kNone);
+  std::vector<Index> count(nodes, 0), first(nodes, kNone);
+  for (Index side = 0; side < sides; ++side)
+    if (const auto [a, b] = ends(side); a != kNone) ++count[a], ++count[b];
   std::vector<Edge> edges;
   edges.reserve(sides / 2 + barriers.size());
   const auto edge_of = [&](Index a, Index b) -> Edge& {
-    const auto [low, high] = std::minmax(a, b);
-    for (Index e = first[low]; e != kNone; e = edges[e].following)
-      if (edges[e].upper == high) return edges[e];
-    edges.push_back({high, kNone, first[low], false});
-    first[low] = Index(edges.size() - 1);
+    // In the chain of the node that has fewer: where thousands meet, the others have few.
+    const auto [few, many] = std::minmax({std::pair(count[a], a), std::pair(count[b], b)});
+    const Index at = few.second, other = many.second;
+    for (Index e = first[at]; e != kNone; e = edges[e].following)
+      if (edges[e].other == other) return edges[e];
+    edges.push_back({other, kNone, first[at], false});
+    first[at] = Index(edges.size() - 1);
     return edges.back();
   };
   for (const auto& [a, b] : barriers) edge_of(a, b).is_barrier = true;

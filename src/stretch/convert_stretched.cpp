@@ -20,6 +20,8 @@ namespace {
 
 /// Fewer triangles may be what they are by chance, or because the boundary leaves no room, though they are alike.
 constexpr std::size_t kFewestAlike = 16;
+/// What a chart costs, and quads in it, for each triangle: with less there is no hope for them.
+constexpr std::size_t kLeastWork = 100;
 
 /// A look at single triangles: whether as many are so long that the region may be stretched, and none is turned over,
 /// or without area: a chart would hide that.
@@ -45,12 +47,12 @@ bool is_stretched(const space::Background& surface, const MetricField& field) {
 
 /// Quads of the region, made in the chart.
 kernel::Mesh convert_in(const Unfolded& chart, const Region& region, const Plane& plane, const Options& options,
-                        double allowed, ConversionReport& report, Record& record) {
+                        Budget& budget, ConversionReport& report, Record& record) {
   Region flat = region;
   flat.points = chart.flat();
   Plane own = plane;
   own.curved = [&](const Vec2& p) { return plane.to_space(chart.in_plane(p)); };
-  kernel::Mesh mesh = convert_region(flat, own, options, allowed, report, record);
+  kernel::Mesh mesh = convert_region(flat, own, options, budget, report, record);
   for (auto& stage : record.stages)
     if (stage) chart.lift(*stage);
   chart.lift_and_straighten(mesh);
@@ -129,7 +131,8 @@ std::optional<Attempt> attempt(const MetricField& field, const Work& work) {
 }  // namespace
 
 std::optional<StretchedQuads> convert_stretched(const Region& region, const Plane& plane, const Options& options,
-                                                double allowed, ConversionReport& report, Record& record) {
+                                                Budget& budget, ConversionReport& report, Record& record) {
+  if (budget.left() < double(kLeastWork * region.triangles.size())) return {};
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
   if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
   const Surface surface(region.points, region.triangles, boundary_edges(region));
@@ -139,16 +142,14 @@ std::optional<StretchedQuads> convert_stretched(const Region& region, const Plan
   if (!flattening) return {};
   const Unfolded chart(surface, field, std::move(*flattening));
   std::optional<Attempt> best = attempt(
-      field, [&](Attempt& own) { return convert_in(chart, region, plane, options, allowed, own.report, own.record); });
+      field, [&](Attempt& own) { return convert_in(chart, region, plane, options, budget, own.report, own.record); });
   if (!best) return {};
   const Measure own = measure(*best, region);
   bool in_chart = true;
   if (!own.is_good()) {
-    const std::size_t cost = best->mesh.work();
     std::optional<Attempt> plain = attempt(field, [&](Attempt& other) {
-      return convert_region(region, plane, options, allowed - double(cost), other.report, other.record);
+      return convert_region(region, plane, options, budget, other.report, other.record);
     });
-    if (plain) plain->mesh.add_work(cost);
     if (plain && measure(*plain, region).is_better_than(own)) best = std::move(plain), in_chart = false;
   }
   report = best->report;

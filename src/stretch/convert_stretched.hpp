@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "engine/budget.hpp"
 #include "engine/record.hpp"
 #include "engine/regions.hpp"
 #include "kernel/mesh.hpp"
@@ -21,6 +22,6 @@ struct StretchedQuads {
 /// poor quad, what convert_region() makes, if that is better. Nothing if the region is not stretched, has no such
 /// chart, or has no valid result in it. Cost where nothing is stretched: some nanoseconds a triangle.
 std::optional<StretchedQuads> convert_stretched(const Region& region, const Plane& plane, const Options& options,
-                                                double allowed, ConversionReport& report, Record& record);
+                                                Budget& budget, ConversionReport& report, Record& record);
 
 }  // namespace qmorph::stretch

@@ -10,7 +10,7 @@
 #include "chart/fixture.hpp"
 #include "chart/widen_tips.hpp"
 #include "chart/work_on_region.hpp"
-#include "engine/allowance.hpp"
+#include "engine/budget.hpp"
 #include "geometry/predicates.hpp"
 #include "qmorph/check.hpp"
 #include "qmorph/convert.hpp"
@@ -268,12 +268,12 @@ TEST_CASE("curved: tries end in time on what overlaps itself everywhere") {
       for (double& x : p) x += rng.between(-3, 3);
     for (const chart::CurvedRegion& region : chart::curved_regions(patch, 0.7)) {
       const std::size_t size = region.region.triangles.size();
-      chart::Effort effort{allowance(size)};
+      Budget budget(budget_of_call(double(size)));
       try {
-        chart::work_on_region(region, Options(), effort, chart::Task::convert);
+        chart::work_on_region(region, Options(), budget, chart::Task::convert);
       } catch (const SurfaceError&) {
       }
-      CHECK(double(effort.spent) < kMostTries * allowance(size));
+      CHECK(budget.spent() < kMostTries * allowance(size));
     }
   }
 }

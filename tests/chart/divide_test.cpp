@@ -132,7 +132,7 @@ TEST_CASE("interfaces: at most one part is odd, and all nodes stay on the surfac
       if (is_crease[side]) is_interface[side] = false;
     std::vector<Edge> interface = edges_on(start.mesh, is_interface);
     const std::size_t parts = division.parts.size();
-    WindowBudget budget(kPlenty);
+    Budget budget(kPlenty);
     straighten(start.mesh, creases, interface, {*start.region.background}, budget);
     start.opposite = opposite_sides(start.mesh);
     std::vector<Edge> cuts = interface;

@@ -60,7 +60,7 @@ TEST_CASE("windows: irregular nodes cancel, quads stay valid, and the rim of a w
     SurfaceMesh mesh = region.start();
     const std::vector<Index> opposite = opposite_sides(mesh);
     std::vector<char> waiting = irregular_nodes(mesh, {});
-    WindowBudget budget(kPlenty);
+    Budget budget(kPlenty);
     const std::vector<bool> no_walls(4 * mesh.faces.size(), false);
     const std::vector<Window> windows = take_windows(mesh, opposite, no_walls, {14, 9, 1500, true}, waiting, budget);
     REQUIRE_FALSE(windows.empty());

@@ -22,7 +22,7 @@ TEST_CASE("windows: discs with no face in common, until each node has had one") 
     std::vector<char> waiting(start.mesh.points.size(), 0);
     for (std::size_t v = 0; v < waiting.size(); v += 3) waiting[v] = 1;
     int rounds = 0;
-    WindowBudget budget(kPlenty);
+    Budget budget(kPlenty);
     while (true) {
       const auto left = std::count(waiting.begin(), waiting.end(), 1);
       const auto windows = take_windows(start.mesh, start.opposite, walls, {6, 3, 200}, waiting, budget);
@@ -50,7 +50,7 @@ TEST_CASE("windows: none goes across a wall") {
     walls[side] = on_middle(face[side % 4]) && on_middle(face[next_corner(face, side % 4)]);
   }
   std::vector<char> waiting(start.mesh.points.size(), 1);
-  WindowBudget budget(kPlenty);
+  Budget budget(kPlenty);
   for (const Window& window : take_windows(start.mesh, start.opposite, walls, {6, 3, 500}, waiting, budget)) {
     std::set<bool> halves;
     for (Index f : window.faces) {
@@ -70,9 +70,9 @@ TEST_CASE("windows: where nothing lies flat, the search ends when its budget is 
   std::vector<char> waiting(start.mesh.points.size(), 1);
   constexpr std::size_t kEach = 1000, kLastWindow = 800 * 2 * kWorkToLayOut;
   const std::size_t allowed = kEach * start.mesh.faces.size();
-  WindowBudget budget{double(allowed)};
+  Budget budget{double(allowed)};
   while (!take_windows(start.mesh, start.opposite, walls, {8, 5, 800}, waiting, budget).empty()) {
   }
   CHECK(budget.is_spent());
-  CHECK(budget.spent() < allowed + kLastWindow + kWorkToLook * start.mesh.faces.size());
+  CHECK(budget.spent() < double(allowed + kLastWindow + kWorkToLook * start.mesh.faces.size()));
 }

@@ -2,7 +2,7 @@
 // Large regions are cut into parts; what the parts become is put together again.
 #include <doctest/doctest.h>
 
-#include "engine/allowance.hpp"
+#include "engine/budget.hpp"
 #include "engine/parts/convert_parts.hpp"
 #include "engine/parts/cutting_line.hpp"
 #include "engine/parts/divide.hpp"

@@ -32,7 +32,7 @@ void put_in_callers_terms(SurfaceRecord& record, const Patch& patch, const Numbe
 
 }  // namespace
 
-SurfaceWork work_on_numbered(const Patch& patch, const Options& options, const PatchWork& work) {
+SurfaceWork work_on_numbered(const Patch& patch, const Options& options, Budget& budget, const PatchWork& work) {
   require_sound(patch);
   const std::optional<Numbered> own = numbered(patch);
   double highest = 0;
@@ -43,14 +43,14 @@ SurfaceWork work_on_numbered(const Patch& patch, const Options& options, const P
     Options inside = watched;
     if (options.observer) inside.observer = &observer.emplace(*options.observer, own->frame);
     try {
-      SurfaceWork result = work(own->patch, inside);
+      SurfaceWork result = work(own->patch, inside, budget);
       result.conversion.mesh = in_callers_terms(result.conversion.mesh, patch, *own);
       if (observer) put_in_callers_terms(result.record, patch, *own, *observer);
       return result;
     } catch (const SurfaceError&) {  // which has our numbers and coordinates: below it is thrown with the caller's
     }
   }
-  return work(patch, watched);
+  return work(patch, watched, budget);
 }
 
 }  // namespace qmorph::canonical

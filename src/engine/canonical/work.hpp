@@ -10,6 +10,6 @@ namespace qmorph::canonical {
 /// `work` on the patch as numbered() makes it, and what came of it in the caller's numbers and coordinates. An error is
 /// one about the patch as it came.
 /// \throws SurfaceError if an index is out of range or an element uses a node twice; what `work` throws
-SurfaceWork work_on_numbered(const Patch& patch, const Options& options, const PatchWork& work);
+SurfaceWork work_on_numbered(const Patch& patch, const Options& options, Budget& budget, const PatchWork& work);
 
 }  // namespace qmorph::canonical
