@@ -47,9 +47,10 @@ class Planner {
         b_(rails.lower),
         t_(rails.upper),
         is_odd_((b_.size() + t_.size() + std::size_t(rails.first_rows + rails.last_rows)) % 2 != 0),
-        came_(b_.size() * kStates),
-        now_(kStates),
-        ahead_(kStates) {}
+        states_((is_odd_ ? 2 : 1) * kStatesBefore),
+        came_(b_.size() * states_),
+        now_(states_),
+        ahead_(states_) {}
 
   RowPlan run() {
     std::fill(now_.begin(), now_.end(), kInfinite);
@@ -68,8 +69,8 @@ class Planner {
   }
 
  private:
-  static constexpr int kStates = 2 * kWidth * kMostRows * kModes;
-  /// Before the triangle of an odd band, and after it.
+  static constexpr std::size_t kStatesBefore = kWidth * kMostRows * kModes;
+  /// Before the triangle of an odd band, and after it. An even band has the first ones only.
   static int state(int column, int rows, int mode, bool is_after = false) {
     return ((is_after * kWidth + column) * kMostRows + rows - 1) * kModes + mode;
   }
@@ -108,7 +109,7 @@ class Planner {
     double& target = (i == i_ ? now_ : ahead_)[s];
     if (cost >= target) return;
     target = cost;
-    came_[i * kStates + s] =
+    came_[i * states_ + s] =
         std::uint16_t(1 + step.kind + kKinds * (step.above + 2 * (step.level + kMostRows * from_mode)));
   }
 
@@ -207,7 +208,7 @@ class Planner {
     plan.first_rows = Index(rails_.first_rows);
     std::size_t i = b_.size() - 1, j = t_.size() - 1;
     while (i > 0 || j > 0) {
-      unsigned code = came_[i * kStates + state(column(i, j), rows, mode, is_after)];
+      unsigned code = came_[i * states_ + state(column(i, j), rows, mode, is_after)];
       if (code == 0) return {};
       --code;
       Step step;
@@ -231,6 +232,7 @@ class Planner {
   const RowCosts& costs_;
   const std::vector<Vec2>&b_, &t_;
   bool is_odd_;
+  std::size_t states_;     ///< of a rung
   bool is_after_ = false;  ///< the triangle
   std::size_t i_ = 0;
   std::vector<std::uint16_t> came_;

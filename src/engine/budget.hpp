@@ -21,6 +21,8 @@ class Budget {
   double spent() const { return spent_; }
   double left() const { return allowed_ - spent_; }
   bool is_spent() const { return left() <= 0; }
+  /// So much from now on, whatever was left.
+  void renew(double allowed) { allowed_ = spent_ + allowed; }
   /// For what has to begin again, because its first result is not valid: it does so with a little at least.
   double left_for_another() const {
     constexpr double kLeast = 0.1;
@@ -50,7 +52,7 @@ class SpentInAll {
 /// costs 60 to 400 a triangle besides what everything costs. Few triangles may cost more each, because tries with other
 /// constants gain much there.
 inline double budget_of_call(double triangles) {
-  constexpr double kEach = 1000, kFew = 60e6, kLessEach = 11'000;
+  constexpr double kEach = 1100, kFew = 60e6, kLessEach = 11'000;
   return std::max(kEach * triangles, kFew - kLessEach * triangles);
 }
 
@@ -65,7 +67,7 @@ inline double allowance(std::size_t triangles) {
 /// What one of `count` surfaces, or regions, gets of what is allowed for all: in proportion to its triangles, and as if
 /// it had some more, because a small one that turns out badly is worth many tries.
 inline double share_of(double allowed, double triangles, double triangles_of_all, std::size_t count) {
-  constexpr double kMore = 100;
+  constexpr double kMore = 50;
   return allowed * (triangles + kMore) / (triangles_of_all + kMore * double(count));
 }
 
@@ -73,5 +75,10 @@ inline double share_of(double allowed, double triangles, double triangles_of_all
 inline double part_of(double allowed, std::size_t triangles, std::size_t triangles_of_all, std::size_t count) {
   return 0.5 * allowed * (double(triangles) / double(triangles_of_all) + 1 / double(count));
 }
+
+/// What has not been spent is for those that could have made use of more: twice as much as they had, to begin again.
+/// Comes first whose improvement was cut short most often. `cut_short`: how often by share, 0 for those that want no
+/// more. Returns their numbers, in order.
+std::vector<std::size_t> share_out_the_rest(std::vector<Budget>& shares, const std::vector<std::size_t>& cut_short);
 
 }  // namespace qmorph

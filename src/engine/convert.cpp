@@ -52,16 +52,17 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
   if (!plane) return chart::convert_curved(patch, options, budget, stuck);
   const Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
-  std::vector<char> is_stuck(surface.regions.size(), false);
+  std::vector<char> is_stuck(surface.regions.size(), false), is_converted = is_stuck;
   const auto work = [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report,
                         Record& record) {
     try {
       const Region& region = surface.regions[r];
-      if (auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record))
-        return std::move(*mesh);
-      return convert_flat(region, surface.plane, own, budget_of_region, report, record);
+      auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record);
+      if (!mesh) mesh = convert_flat(region, surface.plane, own, budget_of_region, report, record);
+      is_converted[r] = true, is_stuck[r] = false;
+      return std::move(*mesh);
     } catch (const SurfaceError&) {
-      if (!stuck) throw;
+      if (!stuck || is_converted[r]) throw;
       is_stuck[r] = true;
       record = {};
       if (wants_stages(own)) record.stages.front() = kernel::Mesh();

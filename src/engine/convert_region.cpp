@@ -48,9 +48,9 @@ constexpr double kRefused = 0.2, kFair = 0.5;
 
 /// In all; but a mesh that is finer than asked for is better than a quad that solvers refuse, up to a limit.
 bool is_worth_more(const Worth& one, const Worth& other) {
-  constexpr double kMostGrowth = 2.5;
+  constexpr double kMostGrowth = 2.5, kAccepted = 0.4;
   const auto mends = [](const Worth& a, const Worth& b) {
-    return a.least >= kFair && b.least < kRefused && a.growth <= kMostGrowth;
+    return a.least >= kAccepted && b.least < kRefused && a.growth <= kMostGrowth;
   };
   return mends(one, other) || (one.sum() > other.sum() && !mends(other, one));
 }
@@ -162,21 +162,23 @@ class RegionConverter {
   /// for are taken only in place of what solvers refuse: where the ends of a strip have nodes in their middles, say.
   void take_rows(Attempt& best) {
     constexpr double kAsGood = 0.01;
-    if (best.fault) return;
+    // In a chart it cannot be seen what the triangle of an odd one does to the quads beside it in space.
+    if (best.fault || (plane_.curved && region_.boundary_sides % 2 != 0)) return;
     std::optional<bands::Band> band = bands::find_band(region_);
     const bool is_usual = band.has_value();
     if (!band && judge(best.mesh).least < kRefused) band = bands::find_band(region_, bands::kAnyBand);
     if (!band) return;
     for (const bands::RowCosts& costs : {bands::kBetterTurns, bands::kFewerTurns}) {
       auto rows = bands::lay_rows(*band, region_.points, costs);
-      if (!rows || double(cost_) > allowed_) return;
-      Attempt laid = begin(std::move(*rows), options_, left(), Way::without_front);
+      if (!rows) return;
+      const bool may_have_others = has_irregular_nodes(*rows);
+      Attempt laid = begin(std::move(*rows), options_, left_for_rows(), Way::without_front);
       finish(laid);
       const Worth one = judge(laid.mesh), other = judge(best.mesh);
       // A poor quad more is too high a price for rows.
       const double least = is_usual ? std::min(other.least - kAsGood, kFair) : kFair;
-      if (laid.fault || !is_worth_more(one, other) || one.least < least) continue;
-      best = std::move(laid);
+      if (!laid.fault && is_worth_more(one, other) && one.least >= least) best = std::move(laid);
+      if (!may_have_others) return;  // of rows that never turn, other costs make the same
     }
   }
 
@@ -196,6 +198,13 @@ class RegionConverter {
       if (lay == bands::lay_blade && mean_sine(laid.mesh) < mean_sine(best.mesh)) continue;
       best = std::move(laid);
     }
+  }
+
+  static bool has_irregular_nodes(const kernel::Mesh& mesh) {
+    const std::vector<Index> valences = mesh.valences();
+    for (Index v = 0; v < valences.size(); ++v)
+      if (mesh.is_live_vertex(v) && !mesh.is_boundary(v) && valences[v] != 4) return true;
+    return false;
   }
 
   static double mean_sine(const kernel::Mesh& mesh) {
@@ -296,6 +305,12 @@ class RegionConverter {
   }
   /// Of what is allowed for all but climb().
   double left() const { return budget_.left() - to_climb_; }
+
+  /// However much the front has cost: rows come from a plan, and what a band is without them is hardly ever good.
+  double left_for_rows() const {
+    constexpr double kLeast = 0.15;
+    return std::max(left(), kLeast * allowed_);
+  }
 
   /// Changes one by one what a small region has become in the end.
   void climb(Attempt& best) {

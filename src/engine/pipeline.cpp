@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 
 /// The share of its allowed work that a region may have spent when each of these is done; what one stage leaves is
 /// there for the next.
-constexpr double kElimination = 0.15, kRoughSmoothing = 0.2, kBoundary = 0.25, kCleanup = 0.5, kFinalSmoothing = 0.6,
-                 kRepair = 0.75, kShape = 0.8, kPoorCavities = 0.95;
+constexpr double kElimination = 0.2, kRoughSmoothing = 0.3, kBoundary = 0.35, kCleanup = 0.7, kFinalSmoothing = 0.78,
+                 kRepair = 0.87, kShape = 0.9, kPoorCavities = 0.97;
 /// The share that repairs in twos may cost, which are many tries for few elements; more where not much is allowed, as
 /// long as it is little for a face.
 constexpr double kRepairInTwos = 0.01, kMostRepairInTwos = 0.018, kRepairInTwosOfFace = 54;

@@ -93,14 +93,29 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budg
     budgets.emplace_back(share_of(allowed, size, double(triangles), meshes.size()));
   }
   const SpentInAll spent_in_all(budget, budgets);
-  parallel::for_each_index(meshes.size(), [&](std::size_t r) {
+  const auto work_on = [&](std::size_t r, const ProgressCallback& its_progress) {
     if (shared.is_over()) return;
     Options own = options;
-    own.progress = progress[r];
+    own.progress = its_progress;
+    ConversionReport report;
+    Record record;
+    meshes[r] = work(r, own, budgets[r], report, record);
+    reports[r] = std::move(report), records[r] = std::move(record);
+  };
+  parallel::for_each_index(meshes.size(), [&](std::size_t r) {
     try {
-      meshes[r] = work(r, own, budgets[r], reports[r], records[r]);
+      work_on(r, progress[r]);
     } catch (const SurfaceError& error) {
       throw with_node(error, surface, surface.regions[r]);
+    }
+  });
+  std::vector<std::size_t> cut_short;
+  for (const ConversionReport& report : reports) cut_short.push_back(report.budgets_spent);
+  const std::vector<std::size_t> again = share_out_the_rest(budgets, cut_short);
+  parallel::for_each_index(again.size(), [&](std::size_t k) {
+    try {
+      work_on(again[k], {});
+    } catch (const SurfaceError&) {  // it was valid with less
     }
   });
   shared.finish();
@@ -147,7 +162,7 @@ class Patches {
   std::vector<Outcome> run() {
     parallel::with_threads(options_.threads, [&] {
       parallel::for_each_index(patches_.size(), [&](std::size_t i) { work_on(i, progress_[i]); });
-      const std::vector<std::size_t> again = share_out_the_rest();
+      const std::vector<std::size_t> again = share_out_the_rest(budgets_, cut_short());
       parallel::for_each_index(again.size(), [&](std::size_t k) {
         const ProgressCallback& progress = progress_[again[k]];
         work_on(again[k], progress ? [&](std::string_view stage, double) { return progress(stage, 1); } : progress);
@@ -159,20 +174,12 @@ class Patches {
   }
 
  private:
-  /// What surfaces have not spent is for those that could have made use of more, as far as it is much more. Returns
-  /// their numbers; they begin again.
-  std::vector<std::size_t> share_out_the_rest() {
-    constexpr double kMuchMore = 1.5;
-    double rest = 0, wanted = 0;
-    std::vector<std::size_t> again;
-    for (std::size_t i = 0; i < patches_.size(); ++i) {
-      rest += budgets_[i].left();
-      if (could_use_more(i)) again.push_back(i), wanted += budgets_[i].allowed();
-    }
-    const double times = wanted > 0 ? rest / wanted : 0;
-    if (times < kMuchMore) return {};
-    for (std::size_t i : again) budgets_[i] = Budget(times * budgets_[i].allowed());
-    return again;
+  /// How often the improvement of each was cut short; 0 where more would not help.
+  std::vector<std::size_t> cut_short() const {
+    std::vector<std::size_t> result(patches_.size(), 0);
+    for (std::size_t i = 0; i < patches_.size(); ++i)
+      if (could_use_more(i)) result[i] = 1 + outcomes_[i].conversion->report.budgets_spent;
+    return result;
   }
 
   bool could_use_more(std::size_t i) const {

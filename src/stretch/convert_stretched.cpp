@@ -8,6 +8,7 @@
 
 #include "engine/convert_region.hpp"
 #include "engine/grid_pairs.hpp"
+#include "engine/prepare.hpp"
 #include "engine/worth.hpp"
 #include "geometry/predicates.hpp"
 #include "qmorph/certificate.hpp"
@@ -134,7 +135,9 @@ std::optional<StretchedQuads> convert_stretched(const Region& region, const Plan
                                                 Budget& budget, ConversionReport& report, Record& record) {
   if (budget.left() < double(kLeastWork * region.triangles.size())) return {};
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
-  if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
+  const kernel::Mesh start(region.points, region.triangles, region.open);
+  if (is_good_grid(start)) return {};         // its cells are kept
+  if (find_needles(start, plane)) return {};  // so long that their heights are rounding: there is no metric to follow
   const Surface surface(region.points, region.triangles, boundary_edges(region));
   const MetricField field(surface.background);
   if (!is_stretched(surface.background, field)) return {};
