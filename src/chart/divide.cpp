@@ -35,17 +35,11 @@ constexpr std::size_t kLarge = 500;
 /// Of one that is judged by a few of its points, if that will do.
 constexpr std::size_t kVeryLarge = 2000;
 
-double most_distortion(std::size_t faces) {
-  if (faces >= kVeryMany) return kMostOfVeryMany;
-  const double few = std::clamp((kMany - double(faces)) / (kMany - kFew), 0.0, 1.0);
-  return kMostDistortion + few * (kMostOfFew - kMostDistortion);
-}
-
 class Dividing {
  public:
-  Dividing(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most,
-           bool at_a_glance)
-      : mesh_(mesh), opposite_(opposite), most_(double(most)), at_a_glance_(at_a_glance) {
+  Dividing(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
+           const DivisionSettings& settings)
+      : mesh_(mesh), opposite_(opposite), most_(double(settings.most_faces)), settings_(settings) {
     division_.is_cut = std::move(is_cut);
   }
 
@@ -64,6 +58,12 @@ class Dividing {
   }
 
  private:
+  double most_distortion(std::size_t faces) const {
+    if (faces >= kVeryMany && !settings_.keeps_lengths) return kMostOfVeryMany;
+    const double few = std::clamp((kMany - double(faces)) / (kMany - kFew), 0.0, 1.0);
+    return kMostDistortion + few * (kMostOfFew - kMostDistortion);
+  }
+
   bool is_good(const LaidOut& part) const {
     const Flattening& flattening = part.chart.flattening();
     return flattening.flipped == 0 && flattening.distortion <= most_distortion(part.piece.faces.size());
@@ -74,7 +74,7 @@ class Dividing {
     std::unique_ptr<LaidOut> laid_out;  ///< with the piece; null if a glance was enough, and then the piece stays
   };
   Judged judge(Piece& piece) const {
-    if (at_a_glance_ && piece.faces.size() >= kVeryLarge && !has_tip(piece))
+    if (settings_.at_a_glance && piece.faces.size() >= kVeryLarge && !has_tip(piece))
       if (const auto distortion = coarse_distortion(piece))
         return {*distortion <= most_distortion(piece.faces.size()), nullptr};
     auto part = std::make_unique<LaidOut>(std::move(piece));
@@ -241,15 +241,15 @@ class Dividing {
   const SurfaceMesh& mesh_;
   const std::vector<Index>& opposite_;
   const double most_;
-  const bool at_a_glance_;
+  const DivisionSettings settings_;
   Division division_;
 };
 
 }  // namespace
 
-Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut, std::size_t most,
-                bool at_a_glance) {
-  return Dividing(mesh, opposite, std::move(is_cut), most, at_a_glance).run();
+Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
+                const DivisionSettings& settings) {
+  return Dividing(mesh, opposite, std::move(is_cut), settings).run();
 }
 
 }  // namespace qmorph::chart

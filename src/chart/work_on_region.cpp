@@ -28,8 +28,6 @@ namespace {
 
 /// What everything that is not counted costs a try for each triangle: to divide, to flatten, to settle.
 constexpr std::size_t kWorkToBegin = 120;
-/// Faces of a chart: larger ones cost more than they are worth.
-constexpr std::size_t kMostOfChart = 60'000;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
@@ -188,7 +186,8 @@ class Worker {
     opposite_ = opposite_sides(mesh_);
     const std::vector<bool> is_crease = sides_on(mesh_, region_.creases);
     creases_ = edges_on(mesh_, is_crease);
-    division_ = divide(mesh_, opposite_, is_crease, kMostOfChart, straightens);
+    division_ =
+        divide(mesh_, opposite_, is_crease, {.at_a_glance = straightens, .keeps_lengths = ground_.field != nullptr});
     std::vector<bool> is_interface = division_.is_cut;
     for (std::size_t side = 0; side < is_interface.size(); ++side)
       if (is_crease[side]) is_interface[side] = false;

@@ -8,7 +8,6 @@
 
 #include "engine/convert_region.hpp"
 #include "engine/grid_pairs.hpp"
-#include "engine/prepare.hpp"
 #include "engine/worth.hpp"
 #include "geometry/predicates.hpp"
 #include "qmorph/certificate.hpp"
@@ -22,7 +21,9 @@ namespace {
 /// Fewer triangles may be what they are by chance, or because the boundary leaves no room, though they are alike.
 constexpr std::size_t kFewestAlike = 16;
 /// What a chart costs, and quads in it, for each triangle: with less there is no hope for them.
-constexpr std::size_t kLeastWork = 100;
+constexpr std::size_t kLeastWork = 300;
+/// What making its quads rectangles costs, for each triangle.
+constexpr std::size_t kWorkToStraighten = 200;
 
 /// A look at single triangles: whether as many are so long that the region may be stretched, and none is turned over,
 /// or without area: a chart would hide that.
@@ -53,6 +54,7 @@ kernel::Mesh convert_in(const Unfolded& chart, const Region& region, const Plane
   flat.points = chart.flat();
   Plane own = plane;
   own.curved = [&](const Vec2& p) { return plane.to_space(chart.in_plane(p)); };
+  budget.spend(double(kWorkToStraighten * region.triangles.size()));
   kernel::Mesh mesh = convert_region(flat, own, options, budget, report, record);
   for (auto& stage : record.stages)
     if (stage) chart.lift(*stage);
@@ -135,9 +137,7 @@ std::optional<StretchedQuads> convert_stretched(const Region& region, const Plan
                                                 Budget& budget, ConversionReport& report, Record& record) {
   if (budget.left() < double(kLeastWork * region.triangles.size())) return {};
   if (region.triangles.size() < kFewestAlike || !may_be_stretched(region)) return {};
-  const kernel::Mesh start(region.points, region.triangles, region.open);
-  if (is_good_grid(start)) return {};         // its cells are kept
-  if (find_needles(start, plane)) return {};  // so long that their heights are rounding: there is no metric to follow
+  if (is_good_grid(kernel::Mesh(region.points, region.triangles, region.open))) return {};  // its cells are kept
   const Surface surface(region.points, region.triangles, boundary_edges(region));
   const MetricField field(surface.background);
   if (!is_stretched(surface.background, field)) return {};

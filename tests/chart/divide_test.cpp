@@ -18,7 +18,8 @@ using namespace qmorph::chart;
 namespace {
 
 Division divided(const Start& start, std::size_t most = 60'000) {
-  return divide(start.mesh, start.opposite, std::vector<bool>(4 * start.mesh.faces.size(), false), most);
+  return divide(start.mesh, start.opposite, std::vector<bool>(4 * start.mesh.faces.size(), false),
+                {.most_faces = most, .at_a_glance = false, .keeps_lengths = false});
 }
 
 }  // namespace
@@ -55,7 +56,8 @@ TEST_CASE("divide: large parts that were judged from a sample lie flat when they
   for (const Patch& patch : {sphere(0.035, rng), torus(1, 0.4, 0.03, rng), rolled(plate(60, 40), 0, rng)}) {
     const Start start(patch);
     const std::vector<bool> uncut(4 * start.mesh.faces.size(), false);
-    const Division division = divide(start.mesh, start.opposite, uncut, 60'000, true);
+    const Division division =
+        divide(start.mesh, start.opposite, uncut, {.most_faces = 60'000, .at_a_glance = true, .keeps_lengths = false});
     for (std::size_t p = 0; p < division.parts.size(); ++p) {
       if (division.laid_out[p]) continue;
       const LaidOut part(start.mesh, start.opposite, division.is_cut, division.parts[p]);
@@ -125,7 +127,8 @@ TEST_CASE("interfaces: at most one part is odd, and all nodes stay on the surfac
                              pierced(sphere(0.15, rng), {0, 0.6, 0.8}, 0.41), box({1, 1, 1}, 0.3, rng)}) {
     Start start(patch, 0.7);
     const std::vector<bool> is_crease = sides_on(start.mesh, start.region.creases);
-    Division division = divide(start.mesh, start.opposite, is_crease, 300);
+    Division division = divide(start.mesh, start.opposite, is_crease,
+                               {.most_faces = 300, .at_a_glance = false, .keeps_lengths = false});
     std::vector<Edge> creases = start.region.creases;
     std::vector<bool> is_interface = division.is_cut;
     for (Index side = 0; side < is_crease.size(); ++side)
