@@ -30,10 +30,10 @@ struct DivisionSettings {
   bool keeps_lengths = true;  ///< as well in large parts as in small ones: where triangles say how to stretch quads
 };
 
-/// Parts with a good chart and not many more faces than asked for. What a good chart has is not cut: discs that are curved
-/// little, annuli that lie flat. A tube is opened from one end to the other, a cone from its tip to its rim; what is
-/// curved more, and what has handles or no boundary, is cut in two along the shortest plane curve that does it, again
-/// and again. What cannot be cut any more may have a chart that is turned over here and there.
+/// Parts with a good chart and not many more faces than asked for. What a good chart has is not cut: discs that are
+/// curved little, annuli that lie flat. A tube is opened from one end to the other, a cone from its tip to its rim;
+/// what is curved more, and what has handles or no boundary, is cut in two along the shortest plane curve that does it,
+/// again and again. What cannot be cut any more may have a chart that is turned over here and there.
 /// \param is_cut sides that are cut already: creases
 Division divide(const SurfaceMesh& mesh, const std::vector<Index>& opposite, std::vector<bool> is_cut,
                 const DivisionSettings& settings);

@@ -158,8 +158,9 @@ class RegionConverter {
     return worth;
   }
 
-  /// A thin band as rows, if they are worth more. A short one, one with oblique ends, and rows that are finer than asked
-  /// for are taken only in place of what solvers refuse: where the ends of a strip have nodes in their middles, say.
+  /// A thin band as rows, if they are worth more. A short one, one with oblique ends, and rows that are finer than
+  /// asked for are taken only in place of what solvers refuse: where the ends of a strip have nodes in their middles,
+  /// say.
   void take_rows(Attempt& best) {
     constexpr double kAsGood = 0.01;
     // In a chart it cannot be seen what the triangle of an odd one does to the quads beside it in space.

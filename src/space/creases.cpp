@@ -125,8 +125,8 @@ class TipCreases {
   Index target(Index side) const { return surface_.corners(side / 3)[(side % 3 + 1) % 3]; }
   std::span<const Index> at(Index v) const { return {sides_.data() + first_[v], first_[v + 1] - first_[v]}; }
 
-  /// At the end of a line, as of a cone's seam, one is as good as two elsewhere on the boundary. On both sides of a line
-  /// there are nodes of their own.
+  /// At the end of a line, as of a cone's seam, one is as good as two elsewhere on the boundary. On both sides of a
+  /// line there are nodes of their own.
   std::size_t fewest_at(Index v) const {
     if (!is_outer_[v]) return 3;
     return surface_.points()[before_[v]] == surface_.points()[after_[v]] ? 1 : 2;

@@ -66,8 +66,8 @@ std::vector<int> find_unwritten_surfaces(const OutputPlan& plan, const OpenedMod
 /// All that have elements.
 bool leaves_out_every_surface(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
-/// There are groups of volumes and none of surfaces: they are meant for a mesh of the volumes, and by Gmsh's rule a mesh
-/// of the surfaces would be an empty file.
+/// There are groups of volumes and none of surfaces: they are meant for a mesh of the volumes, and by Gmsh's rule a
+/// mesh of the surfaces would be an empty file.
 bool only_volumes_are_grouped(const OutputPlan& plan, const OpenedModel& opened, const MshWish& wish);
 
 /// Describes those surfaces, and data on nodes and elements, which only MSH can hold. \return one line for each warning
