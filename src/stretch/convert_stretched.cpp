@@ -23,7 +23,7 @@ constexpr std::size_t kFewestAlike = 16;
 /// What a chart costs, and quads in it, for each triangle: with less there is no hope for them.
 constexpr std::size_t kLeastWork = 300;
 /// What making its quads rectangles costs, for each triangle.
-constexpr std::size_t kWorkToStraighten = 200;
+constexpr std::size_t kWorkToStraighten = 330;
 
 /// A look at single triangles: whether as many are so long that the region may be stretched, and none is turned over,
 /// or without area: a chart would hide that.
