@@ -94,14 +94,10 @@ void drop_around_crumbs(const Background& surface, const std::vector<char>& coun
 class TipCreases {
  public:
   TipCreases(const Background& surface, std::vector<bool>& is_crease)
-      : surface_(surface), is_crease_(is_crease), is_outer_(surface.points().size(), 0) {
+      : surface_(surface), is_crease_(is_crease), before_(surface.points().size(), kNone), after_(before_) {
     std::vector<std::pair<Index, Index>> ends;  // node, side that is a crease and starts there
-    before_.assign(surface.points().size(), kNone), after_ = before_;
     for (Index side = 0; side < is_crease.size(); ++side) {
-      if (surface.opposite(side) == kNone) {
-        is_outer_[node(side)] = is_outer_[target(side)] = 1;
-        after_[node(side)] = target(side), before_[target(side)] = node(side);
-      }
+      if (surface.opposite(side) == kNone) after_[node(side)] = target(side), before_[target(side)] = node(side);
       if (is_crease[side]) ends.emplace_back(node(side), side);
     }
     std::sort(ends.begin(), ends.end());
@@ -125,11 +121,15 @@ class TipCreases {
   Index target(Index side) const { return surface_.corners(side / 3)[(side % 3 + 1) % 3]; }
   std::span<const Index> at(Index v) const { return {sides_.data() + first_[v], first_[v + 1] - first_[v]}; }
 
+  bool is_outer(Index v) const { return before_[v] != kNone || after_[v] != kNone; }
+
   /// At the end of a line, as of a cone's seam, one is as good as two elsewhere on the boundary. On both sides of a
   /// line there are nodes of their own.
   std::size_t fewest_at(Index v) const {
-    if (!is_outer_[v]) return 3;
-    return surface_.points()[before_[v]] == surface_.points()[after_[v]] ? 1 : 2;
+    if (!is_outer(v)) return 3;
+    const bool is_end =
+        before_[v] != kNone && after_[v] != kNone && surface_.points()[before_[v]] == surface_.points()[after_[v]];
+    return is_end ? 1 : 2;
   }
 
   /// Adds the way.
@@ -139,7 +139,7 @@ class TipCreases {
       way.push_back(side);
       const Index v = target(side);
       const std::span<const Index> onwards = at(v);
-      if (is_outer_[v] || onwards.size() > 2) return false;
+      if (is_outer(v) || onwards.size() > 2) return false;
       if (onwards.size() == 1) return true;
       side = target(onwards[0]) == node(side) ? onwards[1] : onwards[0];
     }
@@ -148,8 +148,7 @@ class TipCreases {
 
   const Background& surface_;
   std::vector<bool>& is_crease_;
-  std::vector<char> is_outer_;         ///< by node
-  std::vector<Index> before_, after_;  ///< by node: along the boundary
+  std::vector<Index> before_, after_;  ///< by node: along the boundary; kNone inside
   std::vector<Index> first_, sides_;
 };
 
