@@ -12,6 +12,7 @@
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/front_variants.hpp"
+#include "engine/fronts_made.hpp"
 #include "engine/grid_pairs.hpp"
 #include "engine/parts/convert_parts.hpp"
 #include "engine/prepare.hpp"
@@ -42,24 +43,6 @@ bool is_small(const Region& region, const Options& options) {
 
 /// Whether so many triangles are few enough for other constants of the front.
 bool may_try_again(std::size_t triangles, const Options& options) { return triangles <= 2 * options.retry_triangles; }
-
-/// Scaled Jacobians that solvers refuse, and that are fair.
-constexpr double kRefused = 0.2, kFair = 0.5;
-
-/// In all; but a mesh that is finer than asked for is better than a quad that solvers refuse, up to a limit.
-bool is_worth_more(const Worth& one, const Worth& other) {
-  constexpr double kMostGrowth = 2.5, kAccepted = 0.4;
-  const auto mends = [](const Worth& a, const Worth& b) {
-    return a.least >= kAccepted && b.least < kRefused && a.growth <= kMostGrowth;
-  };
-  return mends(one, other) || (one.sum() > other.sum() && !mends(other, one));
-}
-
-/// What a front has decided and made.
-struct Front {
-  front::Decisions decisions;
-  std::uint64_t connectivity;  ///< of what it has made
-};
 
 /// What an attempt costs however small the region is.
 constexpr std::size_t kWorkPerAttempt = 200;
@@ -145,11 +128,6 @@ class RegionConverter {
     graded_ = double(size) / double(before);
   }
 
-  /// In all, and not by a quad that is poorer than the others' worst.
-  static bool is_better(const Worth& one, const Worth& other) {
-    return one.least >= other.least && one.sum() > other.sum();
-  }
-
   /// In the chart of a curved surface the worst quad says less: in space it will be another.
   Worth judge(const kernel::Mesh& mesh) const {
     constexpr double kLittleInChart = 0.1;
@@ -208,14 +186,6 @@ class RegionConverter {
     return false;
   }
 
-  static double mean_sine(const kernel::Mesh& mesh) {
-    double sum = 0;
-    std::size_t faces = 0;
-    for (Index f = 0; f < mesh.face_slots(); ++f)
-      if (mesh.is_live_face(f)) sum += mesh.smallest_sine(f), ++faces;
-    return sum / double(std::max<std::size_t>(1, faces));
-  }
-
   Attempt pair_triangles() {
     if (start_.face_slots() == 0) start();  // the front has taken it
     Attempt paired = begin(start_, options_, left(), Way::without_front);
@@ -234,14 +204,8 @@ class RegionConverter {
     if (best.fault || !(is_astray || has_no_room)) return;
     Attempt paired = pair_triangles();
     const Worth other = judge(paired.mesh);
-    const auto count_poor = [](const kernel::Mesh& mesh) {
-      std::size_t count = 0;
-      for (Index f = 0; f < mesh.face_slots(); ++f)
-        count += mesh.is_live_face(f) && mesh.is_quad(f) && mesh.smallest_sine(f) < kPoor;
-      return count;
-    };
     const bool has_fewer_poor = has_no_room && other.least >= worth.least - kAsGood && other.sum() > worth.sum() &&
-                                count_poor(paired.mesh) < count_poor(best.mesh);
+                                count_poor(paired.mesh, kPoor) < count_poor(best.mesh, kPoor);
     if (!paired.fault && (has_fewer_poor || (is_astray && is_better(other, worth)))) best = std::move(paired);
   }
 
@@ -364,7 +328,7 @@ class RegionConverter {
         ++best.report.budgets_spent;
         break;
       }
-      if (would_repeat(options.front)) continue;
+      if (fronts_.would_repeat(options.front)) continue;
       budget_.spend(double(kWorkToBegin + kWorkToAdvance * size));
       Attempt other = begin(start_, options, left(), Way::one_of_many, is_quick);
       if (!other.fault && count_faces(other.mesh, 4) <= most_faces) tries.push_back(std::move(other));
@@ -382,13 +346,12 @@ class RegionConverter {
     result.mesh.add_work(kWorkPerAttempt);
     if (is_small_) result.options.smoothing.good_quality = 0;  // raise_corners() tries what pays
     Pipeline pipeline(result.options, result.report, result.record, input_, allowed);
-    Front front{};
-    const bool is_astray =
-        way != Way::without_front &&
-        !pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &front.decisions : nullptr);
+    front::Decisions decisions{};
+    const bool is_astray = way != Way::without_front &&
+                           !pipeline.advance_front(result.mesh, plane_, way == Way::one_of_many ? &decisions : nullptr);
     cleanup::CavityLimits limits;
     if (is_quick) limits.most_nodes = kQuickNodes;
-    if (way == Way::one_of_many && is_repeated(front, result.mesh))
+    if (way == Way::one_of_many && fronts_.is_repeated(decisions, result.mesh))
       result.fault = SurfaceError("the front has made this before");
     else if (way == Way::with_front && is_astray)
       result.fault = SurfaceError("the front has gone astray");
@@ -397,16 +360,6 @@ class RegionConverter {
     spend(result.mesh.work());
     if (way == Way::one_of_many && !result.fault) result.promise = judge(result.mesh).sum();
     return result;
-  }
-
-  /// Notes the front, of which `mesh` came, and whether another has made the same elements; where it has put their
-  /// nodes makes hardly a difference to what comes of them.
-  bool is_repeated(Front& front, const kernel::Mesh& mesh) {
-    front.connectivity = topology::connectivity(mesh);
-    const bool is_repeated = std::any_of(fronts_.begin(), fronts_.end(),
-                                         [&](const Front& other) { return other.connectivity == front.connectivity; });
-    fronts_.push_back(front);
-    return is_repeated;
   }
 
   void finish(Attempt& result) {
@@ -419,11 +372,6 @@ class RegionConverter {
     if (is_small_) raise_corners(result.mesh, options_.smoothing);
     if (is_small_ && wants_stages(result.options)) result.record.stages[std::size_t(Stage::repair)] = result.mesh;
     result.fault = find_fault(result.mesh, region_, plane_);
-  }
-
-  bool would_repeat(const FrontOptions& options) const {
-    return std::any_of(fronts_.begin(), fronts_.end(),
-                       [&](const Front& front) { return front.decisions.would_be_same(options); });
   }
 
   /// Where the triangles are a grid's, their cells; moved only if that makes the worst much better. Nothing if a cell
@@ -490,7 +438,7 @@ class RegionConverter {
   double allowed_ = 0;   ///< for all the rest
   const Tries tries_;
   std::size_t cost_ = 0;  ///< of all attempts so far
-  std::vector<Front> fronts_;
+  FrontsMade fronts_;
   std::size_t next_variant_ = 0;  ///< of front_variants()
   kernel::Mesh start_;            ///< what the front begins with
   kernel::Mesh input_;            ///< as it came, if stages are measured

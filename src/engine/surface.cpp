@@ -78,10 +78,27 @@ Surface::Surface(const Patch& surface, const Plane& its_plane) : patch(surface),
   regions = cut_into_regions(patch, plane_points);
 }
 
-SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budget& budget, const Work& work) {
-  std::vector<kernel::Mesh> meshes(surface.regions.size());
-  std::vector<ConversionReport> reports(meshes.size());
-  std::vector<Record> records(meshes.size());
+namespace {
+
+/// What has become of regions, by region.
+struct RegionResults {
+  std::vector<kernel::Mesh> meshes;
+  std::vector<ConversionReport> reports;
+  std::vector<Record> records;
+
+  explicit RegionResults(std::size_t regions) : meshes(regions), reports(regions), records(regions) {}
+  /// Replaces what there was; not if it throws.
+  void make(std::size_t r, const Options& options, Budget& budget, const Work& work) {
+    ConversionReport report;
+    Record record;
+    meshes[r] = work(r, options, budget, report, record);
+    reports[r] = std::move(report), records[r] = std::move(record);
+  }
+};
+
+/// What some regions leave of the budget is for those whose improvement was cut short, which begin again.
+RegionResults make_all(const Surface& surface, const Options& options, Budget& budget, const Work& work) {
+  RegionResults results(surface.regions.size());
   std::vector<ProgressCallback> progress;
   const std::size_t triangles = surface.patch.triangles.size();
   const parallel::SharedProgress shared(options.progress, double(triangles));
@@ -90,47 +107,50 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budg
   for (const Region& region : surface.regions) {
     const auto size = double(region.triangles.size());
     progress.push_back(shared.part(size));
-    budgets.emplace_back(share_of(allowed, size, double(triangles), meshes.size()));
+    budgets.emplace_back(share_of(allowed, size, double(triangles), surface.regions.size()));
   }
   const SpentInAll spent_in_all(budget, budgets);
-  const auto work_on = [&](std::size_t r, const ProgressCallback& its_progress) {
+  const auto make = [&](std::size_t r, const ProgressCallback& its_progress) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = its_progress;
-    ConversionReport report;
-    Record record;
-    meshes[r] = work(r, own, budgets[r], report, record);
-    reports[r] = std::move(report), records[r] = std::move(record);
+    results.make(r, own, budgets[r], work);
   };
-  parallel::for_each_index(meshes.size(), [&](std::size_t r) {
+  parallel::for_each_index(surface.regions.size(), [&](std::size_t r) {
     try {
-      work_on(r, progress[r]);
+      make(r, progress[r]);
     } catch (const SurfaceError& error) {
       throw with_node(error, surface, surface.regions[r]);
     }
   });
   std::vector<std::size_t> cut_short;
-  for (const ConversionReport& report : reports) cut_short.push_back(report.budgets_spent);
+  for (const ConversionReport& report : results.reports) cut_short.push_back(report.budgets_spent);
   const std::vector<std::size_t> again = share_out_the_rest(budgets, cut_short);
   parallel::for_each_index(again.size(), [&](std::size_t k) {
     try {
-      work_on(again[k], {});
+      make(again[k], {});
     } catch (const SurfaceError&) {  // it was valid with less
     }
   });
   shared.finish();
+  return results;
+}
 
+}  // namespace
+
+SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budget& budget, const Work& work) {
+  RegionResults results = make_all(surface, options, budget, work);
   SurfaceWork result;
   ConversionReport& report = result.conversion.report;
   Collector collector(surface.patch, surface.plane, surface.plane_points);
-  for (std::size_t r = 0; r < meshes.size(); ++r) {
-    report.add(reports[r]);
+  for (std::size_t r = 0; r < results.meshes.size(); ++r) {
+    report.add(results.reports[r]);
     ++report.regions;
     report.odd_regions += surface.regions[r].boundary_sides % 2;
-    collector.add(surface.regions[r], meshes[r]);
+    collector.add(surface.regions[r], results.meshes[r]);
   }
   result.conversion.mesh = collector.finish();
-  if (options.observer) result.record = record_of(surface, options, records);
+  if (options.observer) result.record = record_of(surface, options, results.records);
   return result;
 }
 

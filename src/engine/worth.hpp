@@ -33,4 +33,22 @@ struct Worth {
 /// `triangles`: how many the region had.
 Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles);
 
+/// Scaled Jacobians that solvers refuse, and that are fair.
+inline constexpr double kRefused = 0.2, kFair = 0.5;
+
+/// In all; but a mesh that is finer than asked for is better than a quad that solvers refuse, up to a limit.
+bool is_worth_more(const Worth& one, const Worth& other);
+
+/// In all, and not by a quad that is poorer than the others' worst.
+bool is_better(const Worth& one, const Worth& other);
+
+/// Of the smallest scaled Jacobians of the faces.
+double mean_sine(const kernel::Mesh& mesh);
+
+/// Quads with a scaled Jacobian below that.
+std::size_t count_poor(const kernel::Mesh& mesh, double sine);
+
+/// Whether a node inside has another number of edges than four.
+bool has_irregular_nodes(const kernel::Mesh& mesh);
+
 }  // namespace qmorph

@@ -101,6 +101,17 @@ std::size_t triangles_of(const std::vector<Patch>& patches) {
 
 }  // namespace
 
+TEST_CASE("budget: what shares leave is for those that were cut short, most often first, twice what they had") {
+  std::vector<Budget> shares(4, Budget(100));
+  shares[0] = Budget(210);
+  for (std::size_t i : {1, 2, 3}) shares[i].spend(100);
+  CHECK(share_out_the_rest(shares, {0, 1, 3, 0}) == std::vector<std::size_t>{2});  // there is enough for one
+  CHECK(shares[2].left() == 200);
+  CHECK(shares[2].spent() == 100);
+  CHECK(shares[1].left() == 0);
+  CHECK(share_out_the_rest(shares, {0, 0, 0, 0}).empty());
+}
+
 TEST_CASE("budget: of a call it is in proportion to its triangles, and few may cost more") {
   CHECK(budget_of_call(100'000) == doctest::Approx(10 * budget_of_call(10'000)));
   constexpr double kRounding = 1e-12;
