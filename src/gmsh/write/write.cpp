@@ -5,18 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <string_view>
 #include <vector>
 
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/element_types.hpp"
 #include "gmsh/session/session.hpp"
+#include "gmsh/write/amend.hpp"
 #include "gmsh/write/msh2_writer.hpp"
 #include "gmsh/write/prepare.hpp"
 #include "gmsh/write/staged_file.hpp"
@@ -27,68 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FormatRow {
-  std::string_view name, extension;
-  double msh_version;  ///< 0: not MSH; -1: MSH of whatever version fits
-  bool holds_quads;
-  int max_order = 10, quad_nodes = 0;  ///< as in OutputFormat
-};
-
-/// Gmsh's mesh formats. The extension makes gmsh::write take the format; the name is what -format says.
-constexpr std::array kFormats = {
-    FormatRow{"msh", ".msh", -1, true},        FormatRow{"msh1", ".msh1", 1, true},
-    FormatRow{"msh2", ".msh2", 2.2, true},     FormatRow{"msh22", ".msh22", 2.2, true},
-    FormatRow{"msh3", ".msh3", 3, true},       FormatRow{"msh4", ".msh4", 4.1, true},
-    FormatRow{"msh40", ".msh40", 4, true},     FormatRow{"msh41", ".msh41", 4.1, true},
-    FormatRow{"unv", ".unv", 0, true, 2, 8},    // 95: parabolic shells of 8 nodes
-    FormatRow{"vtk", ".vtk", 0, true, 2},       // 23 and 28
-    FormatRow{"mesh", ".mesh", 0, true, 2, 9},  // QuadrilateralsQ2
-    FormatRow{"bdf", ".bdf", 0, true, 2, 8},    // CQUAD8
-    FormatRow{"inp", ".inp", 0, true, 2, 8},    // CPS8
-    FormatRow{"key", ".key", 0, true, 2, 8},   FormatRow{"dat", ".dat", 0, true, 2, 9},  // Tochnog's -quad9
-    FormatRow{"diff", ".diff", 0, true, 2},    FormatRow{"ir3", ".ir3", 0, true, 2},
-    FormatRow{"su2", ".su2", 0, true, 1},      FormatRow{"m", ".m", 0, true},
-    FormatRow{"cgns", ".cgns", 0, true},       FormatRow{"med", ".med", 0, true, 2},
-    FormatRow{"off", ".off", 0, true, 1},      FormatRow{"obj", ".obj", 0, true, 1},
-    FormatRow{"stl", ".stl", 0, false},        FormatRow{"ply2", ".ply2", 0, false},
-    FormatRow{"p3d", ".p3d", 0, false},        FormatRow{"celum", ".celum", 0, false},
-    FormatRow{"neu", ".neu", 0, false},        FormatRow{"wrl", ".wrl", 0, false},
-    FormatRow{"x3d", ".x3d", 0, false},        FormatRow{"mail", ".mail", 0, false},
-};
-
 constexpr double kDefaultMshVersion = 4.1;
-
-OutputFormat make_format(const FormatRow& row) {
-  if (!row.holds_quads) throw OutputError(fmt::format("the format {} cannot hold quads", row.name));
-  OutputFormat format;
-  format.name = row.name;
-  format.extension = row.extension;
-  format.is_msh = row.msh_version != 0;
-  format.msh_version = std::max(row.msh_version, 0.0);
-  format.max_order = row.max_order;
-  format.quad_nodes = row.quad_nodes;
-  return format;
-}
-
-OutputFormat format_by_name(const std::string& name) {
-  for (const FormatRow& row : kFormats)
-    if (row.name == name) return make_format(row);
-  throw UsageError(
-      fmt::format("unknown format '{}' (one of msh, msh2, msh4, vtk, inp, su2, unv, bdf, mesh, ...)", name));
-}
-
-OutputFormat format_by_extension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const FormatRow& row : kFormats)
-    if (row.extension == extension) return make_format(row);
-  throw OutputError(fmt::format("cannot write {}: unknown extension '{}' (.msh, .vtk, .inp, .su2, ...; or use -format)",
-                                path, extension));
-}
-
-/// All versions of MSH share one extension unless the user writes another.
-std::string default_extension(const OutputFormat& format) { return format.is_msh ? ".msh" : format.extension; }
 
 double choose_version(const OutputFormat& format, const OpenedModel& opened, const MshWish& wish) {
   if (format.msh_version > 0) return format.msh_version;
@@ -175,95 +110,24 @@ void write_msh(const std::string& path, double version, bool everything) {
   }
 }
 
-/// Some writers put the path of their file into it, here that of a temporary one. It is replaced by the file's final
-/// name, padded with blanks.
-void call_by_its_name(const std::string& written, const std::string& target) {
-  constexpr std::streamsize kHead = 4096;
-  std::fstream file(written, std::ios::in | std::ios::out | std::ios::binary);
-  std::string head(kHead, '\0');
-  file.read(head.data(), kHead);
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  const std::size_t at = head.find(written);
-  if (at == std::string::npos) return;
-  std::string name = fs::path(target).filename().string();
-  name.resize(written.size(), ' ');
-  file.clear();
-  file.seekp(static_cast<std::streamoff>(at));
-  file << name;
-}
-
-/// Whether surface elements have nodes at a height other than 0.
-bool are_surfaces_in_space() {
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, parameters;
-  ::gmsh::vectorpair surfaces;
-  ::gmsh::model::getEntities(surfaces, 2);
-  for (const auto& [dim, tag] : surfaces) {
-    ::gmsh::model::mesh::getNodes(tags, xyz, parameters, dim, tag, true, false);
-    for (std::size_t i = 2; i < xyz.size(); i += 3)
-      if (xyz[i] != 0) return true;
-  }
-  return false;
-}
-
-/// Gmsh writes all surface elements as plane-stress ones, which solvers expect in the plane z = 0.
-void name_shells(const std::string& written) {
-  const std::string of_gmsh = "*ELEMENT, type=CPS", shell = "*ELEMENT, type=S";
-  std::ifstream in(written, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  in.close();
-  std::string named;
-  std::size_t done = 0;
-  for (std::size_t at = 0; (at = text.find(of_gmsh, done)) != std::string::npos; done = at + of_gmsh.size())
-    named.append(text, done, at - done).append(shell);
-  named.append(text, done);
-  std::ofstream(written, std::ios::binary) << named;
-}
-
-/// Gmsh writes the keyword of linear quads for those of order 2, too, and its own reader then reads half of each.
-void name_quads_of_order_2(const std::string& written) {
-  const std::string linear = "\n Quadrilaterals\n", quadratic = "\n QuadrilateralsQ2\n";
-  std::ifstream in(written, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(in), {});
-  in.close();
-  const std::size_t at = text.find(linear);
-  if (at == std::string::npos) return;
-  text.replace(at, linear.size(), quadratic);
-  std::ofstream(written, std::ios::binary) << text;
-}
-
 /// Writes a format other than MSH.
 void write_other(const OutputPlan& plan, const std::string& path) {
   std::vector<int> types;
   ::gmsh::model::mesh::getElementTypes(types, 2);
-  const bool second_order =
+  const bool is_second =
       std::any_of(types.begin(), types.end(), [](int type) { return element_type(type).order == 2; });
+  const int order = is_second ? 2 : 1;
   {
-    const ScopedOption order("Mesh.ElementOrder", second_order ? 2 : 1);  // from this the writer knows the order
+    const ScopedOption order_option("Mesh.ElementOrder", order);  // from this the writer knows the order
     ::gmsh::write(path);
   }
-  call_by_its_name(path, plan.path);
-  if (second_order && plan.format.name == "mesh") name_quads_of_order_2(path);
-  if (plan.format.name == "inp" && are_surfaces_in_space()) name_shells(path);
+  amend(path, plan.path, plan.format, order);
 }
 
 bool has_elements_of(int type, int dim) {
   std::vector<int> types;
   ::gmsh::model::mesh::getElementTypes(types, dim);
   return std::count(types.begin(), types.end(), type) > 0;
-}
-
-/// Gmsh does not notice when the disk is full. A complete .msh file ends with an $End line, in binary too.
-void check_msh_end(const std::string& written, const std::string& target) {
-  std::ifstream in(written, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::streamoff>(in.tellg());
-  std::string tail(static_cast<std::size_t>(std::min<std::streamoff>(size, 64)), ' ');
-  in.seekg(size - static_cast<std::streamoff>(tail.size()));
-  in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-  const std::size_t last_line = tail.rfind("\n$");
-  if (tail.empty() || tail.back() != '\n' || last_line == std::string::npos ||
-      (tail.compare(last_line, 5, "\n$End") != 0 && tail.compare(last_line, 5, "\n$END") != 0))
-    throw OutputError(fmt::format("cannot write {}: the file is incomplete; is the disk full?", target));
 }
 
 }  // namespace

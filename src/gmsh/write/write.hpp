@@ -7,19 +7,10 @@
 #include <vector>
 
 #include "gmsh/read/open.hpp"
+#include "gmsh/write/formats.hpp"
 #include "gmsh/write/staged_file.hpp"
 
 namespace qmorph::adapter {
-
-/// A file format of Gmsh's `-format` option.
-struct OutputFormat {
-  std::string name;
-  std::string extension;   ///< with the dot; Gmsh's API chooses the format by it
-  double msh_version = 0;  ///< 0 if it is not MSH, or MSH in whatever version fits
-  bool is_msh = false;
-  int max_order = 1;   ///< of elements that the format's readers know
-  int quad_nodes = 0;  ///< of quads of order 2; 0: either 8 or 9
-};
 
 /// What to write, decided before any work is done.
 struct OutputPlan {
