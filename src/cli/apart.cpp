@@ -84,6 +84,7 @@ std::string describe_death(int signal, const std::string& words) {
   if (signal == SIGKILL) return "killed; is there not enough memory?";
   if (signal == SIGXCPU) return "it does not end, or the time that is allowed was up";
   const std::string said = last_line(words);
+  if (said.find("std::bad_alloc") != std::string::npos) return "there is not enough memory";
   return said.empty() ? ::strsignal(signal) : said;
 }
 

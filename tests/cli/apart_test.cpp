@@ -90,6 +90,10 @@ TEST_CASE("apart: a crash of Gmsh is status 2 and one line, wherever it is") {
   write_file(place.directory / "in.geo", kSquare + "SystemCall \"kill -KILL $PPID\";\n");
   CHECK(place.status_of("in.geo") == 2);
   CHECK(mentions(place.said, "(killed; is there not enough memory?)\n"));
+  write_file(place.directory / "in.geo",
+             kSquare + "SystemCall \"echo '  what():  std::bad_alloc' >&2; kill -ABRT $PPID\";\n");
+  CHECK(place.status_of("in.geo") == 2);
+  CHECK(mentions(place.said, "Gmsh crashed (there is not enough memory)\n"));
 }
 
 TEST_CASE("apart: where there is no display, --gui is status 1 and one line") {

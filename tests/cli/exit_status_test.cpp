@@ -72,6 +72,7 @@ TEST_CASE("status 1: figures in the place of the mesh, by whatever name") {
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", scene.input}), 1, "is the input");
   scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", detour}), 1, "is the input");
   scene.expect(run_qmorph({scene.input, "--stats", scene.directory / "./in.msh"}), 1, "is the output");
+  scene.expect(run_qmorph({scene.input, "-o", scene.output, "--stats", "-"}), 1, "only the mesh goes to the standard");
 }
 
 TEST_CASE("status 2: inputs that cannot be read") {

@@ -105,6 +105,14 @@ TEST_CASE("messages: a format that Gmsh was built without, in the same words eac
   CHECK(result.err == run_qmorph({directory / "in.msh", "-o", directory / "out.med"}).err);
 }
 
+TEST_CASE("messages: a format that Gmsh only writes is named") {
+  const TemporaryDirectory directory;
+  write_file(directory / "deck.inp", "*HEADING\n*NODE\n1, 0, 0, 0\n");
+  const Result result = run_qmorph({directory / "deck.inp"});
+  CHECK(result.status == 2);
+  CHECK(mentions(result.err, "does not read .inp files"));
+}
+
 TEST_CASE("messages: files of a format in which Gmsh finds nothing are no meshes without surfaces") {
   const TemporaryDirectory directory;
   for (const char* name : {"in.unv", "in.brep", "in.mesh", "in.bdf", "in.iges", "in.stl"}) {

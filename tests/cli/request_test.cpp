@@ -105,6 +105,7 @@ TEST_CASE("request: names of files may be odd") {
 TEST_CASE("request: --help and --version need nothing else") {
   CHECK(parse({"--help"}).help);
   CHECK(parse({"-help"}).help);
+  CHECK(parse({"-h"}).help);
   CHECK(parse({"--version"}).version);
 }
 

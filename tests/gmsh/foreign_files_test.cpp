@@ -227,6 +227,19 @@ TEST_CASE("foreign: a surface that is clockwise stays clockwise") {
       }
 }
 
+TEST_CASE("foreign: a mesh of another format keeps its curves as one of Gmsh's does, however odd they are") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.mesh",
+             "MeshVersionFormatted 1\nDimension 3\nVertices\n6\n0 0 0 1\n2 0 0 1\n3 1 0 1\n1 3 0 1\n-1 1 0 1\n1 1 0 1\n"
+             "Edges\n5\n1 2 1\n2 3 1\n3 4 1\n4 5 1\n5 1 1\n"
+             "Triangles\n5\n1 2 6 1\n2 3 6 1\n3 4 6 1\n4 5 6 1\n5 1 6 1\nEnd\n");
+  const Result result = run_qmorph({directory / "in.mesh", "-o", directory / "out.msh"});
+  CHECK(result.status == 0);
+  CHECK(result.err.find("1 triangle is left") != std::string::npos);
+  const std::string after = difference(read_snapshot(directory / "in.mesh"), read_snapshot(directory / "out.msh"), {1});
+  CHECK(after == "");
+}
+
 TEST_CASE("foreign: quads among the triangles of one surface are kept") {
   const TemporaryDirectory directory;
   const Grid grid;

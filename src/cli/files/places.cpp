@@ -29,6 +29,8 @@ adapter::OutputPlan check_places(const Request& request) {
   for (const std::string& file : request.option_files) adapter::check_readable(file);
   std::vector<std::pair<std::string, std::string>> taken{{request.input, "the input"}};
   for (const auto& [option, path] : side_files(request)) {
+    if (path == "-")
+      throw UsageError(fmt::format("{} -: only the mesh goes to the standard output; give it a file", option));
     for (const auto& [other, what] : taken)
       if (is_same_file(path, other))
         throw UsageError(fmt::format("{} {} is {}; give it a file of its own", option, path, what));

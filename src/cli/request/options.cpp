@@ -135,6 +135,7 @@ std::optional<Option> look_up(std::string_view word) {
   if (dashes == 0 || word == "-") return std::nullopt;
   std::string_view name = word.substr(dashes);
   if (name == "f") name = "format";
+  if (name == "h") name = "help";
   const GmshOptionRow* gmsh = find_gmsh_option(name);
   // Gmsh has a -check of its own, which is not ours.
   if (dashes == 1 && gmsh) return Option{nullptr, gmsh};

@@ -39,11 +39,15 @@ std::set<int> find_partitioned(const ::gmsh::vectorpair& surfaces) {
   return partitioned;
 }
 
-/// A discrete surface that CreateGeometry has given parameters has a range of them.
+/// Whether CreateGeometry has given a discrete surface parameters: where it has not, all nodes get the same from Gmsh.
 bool has_parameters(int surface) {
-  std::vector<double> low, high;
-  ::gmsh::model::getParametrizationBounds(2, surface, low, high);
-  return low.size() == 2 && high.size() == 2 && low[0] < high[0] && low[1] < high[1];
+  std::vector<std::size_t> nodes;
+  std::vector<double> xyz, with_nodes, uv;
+  ::gmsh::model::mesh::getNodes(nodes, xyz, with_nodes, 2, surface, true, false);
+  if (nodes.size() < 2) return false;
+  xyz.resize(6);  // two of them tell
+  run_logged([&] { ::gmsh::model::getParametrization(2, surface, xyz, uv); });
+  return uv.size() == 4 && (uv[0] != uv[2] || uv[1] != uv[3]);
 }
 
 /// Surfaces with `Recombine Surface`, `Transfinite Surface` and `Reverse Surface`; fields of boundary layers with
@@ -349,7 +353,17 @@ MeshedModel mesh_surfaces(const MeshingTask& task, const std::vector<int>& keep_
   return meshed;
 }
 
+/// METIS fills the terminal where there are not enough.
 void partition(int count) {
+  std::size_t elements = 0;  // of the highest dimension that has some: those are handed out
+  for (int dim = 3; dim > 0 && elements == 0; --dim) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    ::gmsh::model::mesh::getElements(types, tags, nodes, dim);
+    for (const auto& block : tags) elements += block.size();
+  }
+  if (elements < static_cast<std::size_t>(count))
+    throw InputError(fmt::format("-part {}: the mesh has only {} elements", count, elements));
   const StageLog log = run_logged([&] { ::gmsh::model::mesh::partition(count); });
   if (!log.errors.empty()) throw InputError("Gmsh cannot partition the mesh: " + first_errors(log));
 }

@@ -143,13 +143,17 @@ void check_not_empty(const std::string& path) {
         fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
 }
 
-/// What Gmsh says. Words that it does not know are often those of another version, as names of fields are.
-std::string why_not_opened(const StageLog& log) {
+/// What Gmsh says. A format that it only writes it takes for a script; words that it does not know are often those of
+/// another version, as names of fields are.
+std::string why_not_opened(const std::string& path, const StageLog& log) {
   const std::string said = first_errors(log);
-  if (said.find("Unknown ") == std::string::npos) return said;
   std::string version;
   ::gmsh::option::getString("General.Version", version);
-  return fmt::format("{} (this is Gmsh {})", said, version);
+  if (is_mesh_file(path) && said.find("syntax error") != std::string::npos)
+    return fmt::format(
+        "Gmsh {} takes it for a script, since it does not read {} files; convert it to .msh, .vtk or .bdf", version,
+        fs::path(path).extension().string());
+  return said.find("Unknown ") == std::string::npos ? said : fmt::format("{} (this is Gmsh {})", said, version);
 }
 
 /// What -bgm does in Gmsh's own command.
@@ -178,7 +182,7 @@ OpenedModel open_model(const std::string& path, const OpenOptions& options) {
 
   auto start = std::chrono::steady_clock::now();
   const StageLog log = opened.msh.is_2() ? open_msh2(path, opened.msh.binary, opened.origin) : open_file(path);
-  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, why_not_opened(log)));
+  if (!log.errors.empty()) throw InputError(fmt::format("{} cannot be opened: {}", path, why_not_opened(path, log)));
   std::vector<ViewStep> merged_data;
   for (const std::string& file : options.merged) {
     const std::vector<ViewStep> data = merge_file(file);
