@@ -333,6 +333,39 @@ TEST_CASE("divide: a circle that touches another one from inside") {
   CHECK(total["scaled_jacobian"]["share_below_0.3"].get<double>() * total["quads"].get<double>() < 4.5);
 }
 
+TEST_CASE(
+    "divide: where an arc and a line that it touches run out in a tip, the first segments are as long as a quad "
+    "needs") {
+  for (const double size : {0.1, 0.15}) {
+    CAPTURE(size);
+    const auto [snapshot, worst] = convert(fmt::format(R"(Point(1) = {{0, 0, 0}}; Point(2) = {{1, 0, 0}};
+      Point(3) = {{1, 1, 0}}; Point(4) = {{0, 1, 0}};
+      Line(1) = {{1, 2}}; Line(2) = {{2, 3}}; Circle(3) = {{3, 4, 1}};
+      Curve Loop(1) = {{1, 2, 3}}; Plane Surface(1) = {{1}};
+      Mesh.MeshSizeMax = {};)",
+                                                       size));
+    const std::vector<double> line = lengths(snapshot, 1), arc = lengths(snapshot, 3);
+    CHECK(line.front() > 2.5 * size);
+    CHECK(std::max(arc.front(), arc.back()) == doctest::Approx(line.front()).epsilon(0.05));
+    CHECK(worst > 1.3 * size);  // with segments of the size 0.45 times it
+  }
+}
+
+TEST_CASE("divide: first segments in a tip keep their length where a boundary needs another number") {
+  // A quarter of a ring that thins out: with three segments on its inner side the angle in its tip would be too small.
+  for (const double size : {0.5, 0.7}) {
+    CAPTURE(size);
+    CHECK(convert(fmt::format(R"(SetFactory("OpenCASCADE");
+      Point(1) = {{0, 0, 0}}; Point(2) = {{2, 0, 0}}; Point(3) = {{1, 1, 0}}; Point(4) = {{0, 1, 0}};
+      Point(5) = {{2, 1, 0}};
+      Line(1) = {{1, 2}}; Line(2) = {{2, 5}}; Line(3) = {{5, 3}}; Circle(4) = {{3, 4, 1}};
+      Curve Loop(1) = {{1, 2, 3, 4}}; Plane Surface(1) = {{1}};
+      Mesh.MeshSizeMax = {};)",
+                              size))
+              .worst > 0.25);
+  }
+}
+
 TEST_CASE("divide: a seam whose only segment is an edge of another surface does not leave that odd") {
   convert(R"(SetFactory("OpenCASCADE");
     Torus(1) = {0, 0, 0, 1, 0.4}; Box(2) = {0.62, -3, -3, 4, 6, 6};

@@ -22,7 +22,8 @@ struct DividedCurve {
   std::vector<double> parameters;       ///< of the finer nodes, with the ends
   std::vector<Eigen::Vector3d> points;  ///< of the same
   double length = 0;
-  bool carried = false;   ///< by an extrusion, or it carries another
+  bool carried = false;        ///< by an extrusion, or it carries another
+  std::vector<double> tips{};  ///< where the first segment from a tip ends, in segments of the finer nodes (tips.hpp)
   bool is_spare = false;  ///< half of its two segments: a straight piece of a spline, of which Gmsh makes two at least
 
   double wish() const;  ///< its length in sizes

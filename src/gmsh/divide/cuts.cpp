@@ -47,6 +47,8 @@ class Cutter {
   }
 
   CurveModel run() {
+    for (Index c = 0; c < model_.curves.size(); ++c)
+      for (double tip : model_.curves[c].tips) add(c, tip);
     for (const BoundedSurface& surface : model_.surfaces) look_at(surface);
     for (std::vector<double>& cuts : cuts_) sort_unique(cuts);
     return write();

@@ -10,6 +10,7 @@
 #include "gmsh/divide/crossings.hpp"
 #include "gmsh/divide/curves.hpp"
 #include "gmsh/divide/cuts.hpp"
+#include "gmsh/divide/tips.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "kernel/sort_unique.hpp"
@@ -203,7 +204,8 @@ DivisionReport divide_curves(const DivisionTask& task) {
   std::optional<CurveModel> model = divide_as_wished(task.surfaces);
   if (!model) return {};
   DivisionReport report = report_on(*model);
-  model = cut_at_narrow_places(*model, may_change(*model, task));
+  const std::vector<bool> may = may_change(*model, task);
+  model = cut_at_narrow_places(mark_tips(std::move(*model), may), may);
   std::set<Index> stubborn;
   for (int round = 0; round < kRounds; ++round) {
     const IntervalPlan plan = parity::plan_intervals(pose(*model, task, stubborn));
