@@ -44,13 +44,15 @@ struct Worth {
 
 RegionWork best_of_attempts(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {
   const std::size_t size = region.region.triangles.size();
-  if (task != Task::convert || size > 2 * options.retry_triangles) return work_on_region(region, options, budget, task);
+  SharedDivision shared;
+  if (task != Task::convert || size > 2 * options.retry_triangles)
+    return work_on_region(region, options, budget, task, shared);
   constexpr double kTimes = 2.5;  // more than what fails is worth: each try gives a result
-  RegionWork best = work_on_region(region, options, budget, task);
+  RegionWork best = work_on_region(region, options, budget, task, shared);
   Worth worth(best.mesh, size);
   for (const Options& variant : with_other_fronts(options)) {
     if (worth.irregular < kFewIrregular || !has_more_for(budget, size, kTimes)) break;
-    std::optional<RegionWork> work = try_region(region, variant, budget, task);
+    std::optional<RegionWork> work = try_region(region, variant, budget, task, shared);
     if (!work) continue;
     const Worth other(work->mesh, size);
     if (worth.sum >= other.sum) continue;

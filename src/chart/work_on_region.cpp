@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "chart/interfaces.hpp"
+#include "chart/divide_region.hpp"
 #include "chart/irregular_nodes.hpp"
 #include "chart/pair_up.hpp"
 #include "chart/refine.hpp"
@@ -45,12 +44,13 @@ struct Distrust {
 class Worker {
  public:
   Worker(const CurvedRegion& region, const Options& options, Budget& budget, Task task, const Distrust& distrust,
-         Tries tries = Tries::as_many_as_pay)
+         SharedDivision& shared, Tries tries = Tries::as_many_as_pay)
       : region_(region),
         options_(options),
         budget_(budget),
         task_(task),
         distrust_(distrust),
+        shared_(shared),
         tries_(tries),
         ground_{*region.background, may_stretch() ? region.stretch() : nullptr} {
     budget.spend(double(kWorkToBegin * region.region.triangles.size()));
@@ -60,9 +60,8 @@ class Worker {
 
   /// False if it failed.
   bool run() {
-    start();
-    if (wants_stages(options_)) work_.stages.assign(kStages - 1, mesh_);
-    divide_region();
+    if (wants_stages(options_)) work_.stages.assign(kStages - 1, started());
+    divide();
     work_on_parts();
     clean_interfaces();
     const SurfaceMesh before = mesh_;
@@ -122,6 +121,12 @@ class Worker {
  private:
   const space::Background& background() const { return *region_.background; }
 
+  SurfaceMesh started() const {
+    SurfaceMesh mesh = region_.start();
+    for (int i = 0; i < distrust_.refinings; ++i) mesh = refined(mesh, region_.creases);
+    return mesh;
+  }
+
   /// Work for each use of windows. Ordinary surfaces take a tenth of it, a double torus that is cut all over a half;
   /// without what it needs at its cuts a surface gets smaller quads, and more tries.
   double window_allowance() const {
@@ -142,7 +147,7 @@ class Worker {
 
   bool improve() {
     std::optional<SurfaceMesh> widened;
-    if (task_ == Task::convert) widened = with_wider_tips(mesh_, creases_, background());
+    if (task_ == Task::convert) widened = with_wider_tips(mesh_, divided_->creases, background());
     const bool is_valid = improve_as_it_is();
     if (!widened) return is_valid;
     SurfaceMesh narrow = std::exchange(mesh_, std::move(*widened));
@@ -158,71 +163,39 @@ class Worker {
   }
 
   bool improve_as_it_is() {
-    faults_ = space::improve(mesh_, creases_, region_, stretched_, options_.smoothing);
+    faults_ = space::improve(mesh_, divided_->creases, region_, stretched_, options_.smoothing);
     budget_.spend(double(faults_.work));
     return !find_fault();
   }
 
-  void start() {
-    mesh_ = region_.start();
-    for (int i = 0; i < distrust_.refinings; ++i) mesh_ = refined(mesh_, region_.creases);
-  }
-
-  void divide_region() {
+  /// What nothing is distrusted of is the same for all fronts.
+  void divide() {
     // Between existing quads an interface cannot be improved.
     const bool straightens = task_ == Task::convert && !distrust_.interfaces;
-    divide_region(straightens);
-    if (straightens && std::any_of(division_.laid_out.begin(), division_.laid_out.end(), is_turned_over)) {
-      start();
-      divide_region(false);
+    const bool is_shared = straightens && distrust_.refinings == 0;
+    if (is_shared) divided_ = shared_;
+    if (!divided_) {
+      const RegionDivision settings{straightens, distrust_.refinings, window_allowance()};
+      divided_ = std::make_shared<const DividedRegion>(divide_region(region_, ground_, settings));
+      budget_.spend(divided_->work);
     }
-    has_no_chart_.assign(division_.parts.size(), 0);
-    for (Index p = 0; p < division_.parts.size(); ++p) has_no_chart_[p] = is_distrusted(p);
+    if (is_shared) shared_ = divided_;
+    mesh_ = divided_->mesh;
+    has_no_chart_.assign(parts().size(), 0);
+    for (Index p = 0; p < parts().size(); ++p) has_no_chart_[p] = is_distrusted(p);
   }
 
-  static bool is_turned_over(const std::unique_ptr<LaidOut>& part) { return part->chart.flattening().flipped > 0; }
-
-  void divide_region(bool straightens) {
-    opposite_ = opposite_sides(mesh_);
-    const std::vector<bool> is_crease = sides_on(mesh_, region_.creases);
-    creases_ = edges_on(mesh_, is_crease);
-    division_ =
-        divide(mesh_, opposite_, is_crease, {.at_a_glance = straightens, .keeps_lengths = ground_.field != nullptr});
-    std::vector<bool> is_interface = division_.is_cut;
-    for (std::size_t side = 0; side < is_interface.size(); ++side)
-      if (is_crease[side]) is_interface[side] = false;
-    interface_ = edges_on(mesh_, is_interface);
-    if (!interface_.empty() && straightens) straighten_interfaces();
-    const std::vector<char> changed = make_parts_even(mesh_, opposite_, division_, creases_, interface_, background());
-    for (Index p = 0; p < division_.parts.size(); ++p)
-      if (changed[p] || !division_.laid_out[p])
-        division_.laid_out[p] = std::make_unique<LaidOut>(mesh_, opposite_, division_.is_cut, division_.parts[p]);
-  }
+  const std::vector<std::vector<Index>>& parts() const { return divided_->division.parts; }
+  const LaidOut& laid_out(std::size_t part) const { return *divided_->division.laid_out[part]; }
 
   bool is_distrusted(Index part) const {
-    if (distrust_.all || is_turned_over(division_.laid_out[part])) return true;
-    return !distrust_.triangles.empty() && std::any_of(division_.parts[part].begin(), division_.parts[part].end(),
+    if (distrust_.all || is_turned_over(laid_out(part))) return true;
+    return !distrust_.triangles.empty() && std::any_of(parts()[part].begin(), parts()[part].end(),
                                                        [&](Index f) { return distrust_.triangles[mesh_.near[f]]; });
   }
 
-  void straighten_interfaces() {
-    Budget budget(window_allowance());
-    straighten(mesh_, creases_, interface_, ground_, budget);
-    budget_.spend(budget.spent());
-    opposite_ = opposite_sides(mesh_);
-    division_.is_cut = sides_on(mesh_, interface_);
-    const std::vector<bool> is_crease = sides_on(mesh_, creases_);
-    for (std::size_t side = 0; side < is_crease.size(); ++side)
-      if (is_crease[side]) division_.is_cut[side] = true;
-    std::vector<Index> all(mesh_.faces.size());
-    std::iota(all.begin(), all.end(), 0);
-    division_.parts = components(all, opposite_, division_.is_cut);
-    division_.laid_out.clear();
-    division_.laid_out.resize(division_.parts.size());
-  }
-
   void work_on_parts() {
-    const std::size_t parts = division_.parts.size();
+    const std::size_t parts = this->parts().size();
     std::vector<Reworked> results(parts);
     std::vector<ConversionReport> reports(parts);
     std::vector<Record> records(parts);
@@ -231,7 +204,7 @@ class Worker {
     std::vector<ProgressCallback> progress;
     std::vector<Budget> budgets;
     const double most = work_in_charts();
-    for (const auto& part : division_.parts) {
+    for (const auto& part : this->parts()) {
       progress.push_back(shared.part(double(part.size())));
       budgets.emplace_back(part_of(most, part.size(), mesh_.faces.size(), parts));
     }
@@ -239,7 +212,7 @@ class Worker {
       if (shared.is_over()) return;
       Options own = options_;
       own.progress = progress[p];
-      const LaidOut& part = *division_.laid_out[p];
+      const LaidOut& part = laid_out(p);
       try {
         if (has_no_chart_[p]) return;
         PartWork work = work_on_part(part, ground_, own, budgets[p], task_, reports[p], records[p], tries_);
@@ -256,8 +229,7 @@ class Worker {
       if (!has_no_chart_[p]) continue;
       reports[p] = {};
       records[p] = {};
-      if (wants_stages(options_))
-        records[p].stages.front() = division_.laid_out[p]->piece.mesh(division_.laid_out[p]->chart.flat());
+      if (wants_stages(options_)) records[p].stages.front() = laid_out(p).piece.mesh(laid_out(p).chart.flat());
     }
     for (std::size_t p = 0; p < parts; ++p) {
       work_.report.add(reports[p]);
@@ -276,15 +248,15 @@ class Worker {
     stretched_.assign(region_.region.triangles.size(), 0);
     for (Index p = 0; p < is_part_stretched.size(); ++p)
       if (is_part_stretched[p] && !has_no_chart_[p])
-        for (Index f : division_.parts[p]) stretched_[mesh_.near[f]] = 1;
+        for (Index f : parts()[p]) stretched_[mesh_.near[f]] = 1;
   }
 
   void pair_up_the_rest() {
     needs_cleaning_.assign(mesh_.points.size(), 0);
     for (Index p = 0; p < has_no_chart_.size(); ++p)
       if (has_no_chart_[p])
-        for (Index v : division_.laid_out[p]->piece.vertex) needs_cleaning_[v] = 1;
-    budget_.spend(double(pair_up(mesh_, creases_, background(), options_.smoothing)));
+        for (Index v : laid_out(p).piece.vertex) needs_cleaning_[v] = 1;
+    budget_.spend(double(pair_up(mesh_, divided_->creases, background(), options_.smoothing)));
     needs_cleaning_.resize(mesh_.points.size(), 1);
   }
 
@@ -294,7 +266,7 @@ class Worker {
     for (std::size_t p = 0; p < records.size(); ++p) {
       std::size_t last = stage;
       while (!records[p].stages[last]) --last;  // the input is always there
-      const LaidOut& part = *division_.laid_out[p];
+      const LaidOut& part = laid_out(p);
       parts.push_back({&part.piece, *records[p].stages[last], {}});
       parts.back().lifted = lift(parts.back().mesh, part.piece, part.chart, background());
     }
@@ -303,10 +275,10 @@ class Worker {
 
   /// Interfaces were boundaries: irregular nodes beside them cancel now, and rows run straight on.
   void clean_interfaces() {
-    if (interface_.empty() && needs_cleaning_.empty()) return;
+    if (divided_->interface.empty() && needs_cleaning_.empty()) return;
     std::vector<char> waiting = std::move(needs_cleaning_);
     waiting.resize(mesh_.points.size(), 0);
-    for (const auto& [a, b] : interface_) waiting[a] = waiting[b] = 1;
+    for (const auto& [a, b] : divided_->interface) waiting[a] = waiting[b] = 1;
     work_in_windows(std::move(waiting), kCleaningWindow, clean_window, window_allowance());
   }
 
@@ -317,7 +289,7 @@ class Worker {
     constexpr std::size_t kLarge = 20'000;
     bool changed = false;
     for (int pass = 0; pass < kPasses && mesh_.faces.size() < kLarge; ++pass) {
-      std::vector<char> irregular = irregular_nodes(mesh_, creases_);
+      std::vector<char> irregular = irregular_nodes(mesh_, divided_->creases);
       const auto count = std::count(irregular.begin(), irregular.end(), 1);
       if (double(count) < kFewIrregular * double(mesh_.faces.size())) break;
       const double allowed = std::min(budget_.left(), window_allowance());
@@ -335,9 +307,8 @@ class Worker {
     Budget budget(most);
     while (is_any(waiting)) {
       waiting.resize(mesh_.points.size(), 0);
-      opposite_ = opposite_sides(mesh_);
       const std::vector<Window> windows =
-          take_windows(mesh_, opposite_, sides_on(mesh_, creases_), size, waiting, budget);
+          take_windows(mesh_, opposite_sides(mesh_), sides_on(mesh_, divided_->creases), size, waiting, budget);
       if (windows.empty()) break;
       std::size_t faces = 0;
       for (const Window& window : windows) faces += window.faces.size();
@@ -364,13 +335,12 @@ class Worker {
   Budget& budget_;
   const Task task_;
   const Distrust& distrust_;
+  SharedDivision& shared_;
   const Tries tries_;
   const Ground ground_;
   RegionWork work_;
   SurfaceMesh mesh_;
-  std::vector<Index> opposite_;
-  std::vector<Edge> creases_, interface_;
-  Division division_;
+  std::shared_ptr<const DividedRegion> divided_;
   std::vector<char> has_no_chart_;    ///< by part
   std::vector<char> needs_cleaning_;  ///< by node: of parts without a chart
   std::vector<char> stretched_;       ///< by triangle of the region; empty if none is
@@ -398,7 +368,8 @@ bool has_more_for(const Budget& budget, std::size_t triangles, double times) {
          budget.spent() < times * (triangles <= kSmall ? kTriesOfSmall : kTries) * allowance(triangles);
 }
 
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task,
+                          SharedDivision& shared) {
   constexpr int kTries = 4;
   constexpr std::size_t kSmall = 5000;  // triangles, so that a doubtful element is worth another try
   constexpr std::size_t kFew = 50;      // so that it is worth all of them
@@ -410,7 +381,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
   for (int i = 1; i <= kTries; ++i) {
     if (best.work && !has_more_for(budget, size)) break;
     distrust.all = distrust.all || i == kTries || !has_more_for(budget, size);
-    Worker worker(region, options, budget, task, distrust);
+    Worker worker(region, options, budget, task, distrust, shared);
     if (worker.run()) {
       const bool is_new = worker.learn(distrust);
       best.consider(worker);
@@ -432,7 +403,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
     const Distrust nothing;
     for (const Options& variant : few_front_variants(options)) {
       if (!has_more_for(budget, size)) break;
-      Worker worker(region, variant, budget, task, nothing);
+      Worker worker(region, variant, budget, task, nothing, shared);
       if (!worker.run()) continue;
       best.consider(worker);
       if (best.doubtful == 0 || size > kFew) return std::move(*best.work);
@@ -445,14 +416,15 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
   Distrust nodes;
   while (task == Task::convert && nodes.refinings++ < refinings && !(best.work && best.doubtful == 0) &&
          has_more_for(budget, size))
-    if (Worker worker(region, options, budget, task, nodes); worker.run()) best.consider(worker);
+    if (Worker worker(region, options, budget, task, nodes, shared); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
   throw *first;
 }
 
-std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task) {
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task,
+                                     SharedDivision& shared) {
   const Distrust nothing;
-  Worker worker(region, options, budget, task, nothing, Tries::one);
+  Worker worker(region, options, budget, task, nothing, shared, Tries::one);
   if (!worker.run() || worker.doubtful() > 0) return {};
   return worker.result();
 }

@@ -24,12 +24,18 @@ struct RegionWork {
 /// where tries take long because nothing about the surface is right. `times`: how much more than usual it is worth.
 bool has_more_for(const Budget& budget, std::size_t triangles, double times = 1);
 
+struct DividedRegion;
+/// Of what several tries of one region begin with alike, made by the first that needs it; null before that.
+using SharedDivision = std::shared_ptr<const DividedRegion>;
+
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
 /// and mends in space. What fails, or is doubtful, is tried again in other ways.
 /// \throws SurfaceError
-RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task);
+RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task,
+                          SharedDivision& shared);
 
 /// The same, tried once, and each part as well: nothing if that fails or is doubtful.
-std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task);
+std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task,
+                                     SharedDivision& shared);
 
 }  // namespace qmorph::chart

@@ -2,6 +2,9 @@
 #include "space/background.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "space/link_sides.hpp"
@@ -19,7 +22,7 @@ Background::Background(std::span<const Vector3d> points, std::span<const Triangl
   };
   opposite_ = link_sides(points.size(), 3 * Background::triangles(), ends, barriers);
   add_fans();
-  find_smooth();
+  find_clear_cosines();
 }
 
 void Background::add_fans() {
@@ -42,14 +45,21 @@ void Background::add_fans() {
   }
 }
 
-void Background::find_smooth() {
-  constexpr double kLeastCosine = 0.94;  // 20 degrees
-  std::vector<char> is_smooth(fan_normals_.size(), 1);
-  for (Index side = 0; side < fans_.size(); ++side)
-    if (!(normals_[side / 3].dot(fan_normals_[fans_[side]]) > kLeastCosine)) is_smooth[fans_[side]] = 0;
-  is_smooth_.resize(triangles_.size());
-  for (Index t = 0; t < triangles(); ++t)
-    is_smooth_[t] = is_smooth[fan(t, 0)] && is_smooth[fan(t, 1)] && is_smooth[fan(t, 2)];
+void Background::find_clear_cosines() {
+  constexpr double kSmooth = 0.94;  // cosine of 20 degrees
+  constexpr double kTogether = 80 * std::numbers::pi / 180;  // triangle to node and node to corner
+  constexpr double kRough = 45 * std::numbers::pi / 180;
+  std::vector<double> least(fan_normals_.size(), 1);
+  for (Index side = 0; side < fans_.size(); ++side) {
+    const double cosine = normals_[side / 3].dot(fan_normals_[fans_[side]]);
+    if (!(cosine >= least[fans_[side]])) least[fans_[side]] = std::isnan(cosine) ? -1 : cosine;
+  }
+  clear_cosine_.resize(triangles_.size());
+  for (Index t = 0; t < triangles(); ++t) {
+    const double cosine = std::min({least[fan(t, 0)], least[fan(t, 1)], least[fan(t, 2)]});
+    const double angle = cosine > kSmooth ? 0 : std::acos(std::max(cosine, -1.0));
+    clear_cosine_[t] = angle == 0 ? kClearOfSmooth : angle < kRough ? std::cos(kTogether - angle) : 2;
+  }
 }
 
 Vector3d Background::normal_near(Index t) const {

@@ -58,7 +58,10 @@ class Background {
 
   /// The triangles around the corners of t all have nearly the normal of their corner, so there is no need to look
   /// closer.
-  bool is_smooth(Index t) const { return is_smooth_[t]; }
+  bool is_smooth(Index t) const { return clear_cosine_[t] <= kClearOfSmooth; }
+  /// An element's corner near t that has at least this cosine to the normals of nodes there turns the way that every
+  /// triangle around says; more than 1 where these differ too much for that.
+  double clear_cosine(Index t) const { return clear_cosine_[t]; }
 
   /// Triangles around a node that are joined across edges that are no barriers make a fan: a node has several where
   /// barriers or touching parts of the boundary meet. Number of the fan of corner i of t, from 0 to fans() - 1.
@@ -78,8 +81,10 @@ class Background {
   Foot walk(const Eigen::Vector3d& p, Index hint) const;
 
  private:
+  static constexpr double kClearOfSmooth = 0.5;
+
   void add_fans();
-  void find_smooth();
+  void find_clear_cosines();
   std::array<double, 3> squared_heights(const Foot& foot) const;
   static Index next(Index side) { return side % 3 == 2 ? side - 2 : side + 1; }
   static Index previous(Index side) { return side % 3 == 0 ? side + 2 : side - 1; }
@@ -90,7 +95,7 @@ class Background {
   std::vector<Eigen::Vector3d> normals_;      ///< by triangle
   std::vector<Index> fans_;                   ///< by corner
   std::vector<Eigen::Vector3d> fan_normals_;  ///< by fan
-  std::vector<char> is_smooth_;               ///< by triangle
+  std::vector<double> clear_cosine_;          ///< by triangle
 };
 
 template <class Visit>

@@ -11,10 +11,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-OnTriangle closest_on_sides(const Vector3d& p, const std::array<const Vector3d*, 3>& corners) {
+/// Sides that p is clearly inside of are left out: the closest point is on one that p is outside of.
+OnTriangle closest_on_sides(const Vector3d& p, const std::array<const Vector3d*, 3>& corners,
+                            const std::array<bool, 3>& is_inside_of) {
   OnTriangle best;
   best.distance2 = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
+    if (is_inside_of[i]) continue;
     const int j = (i + 1) % 3;
     const double at_j = closest_on_segment(p, *corners[i], *corners[j]);
     // From the nearer corner, so that a corner is met to the bit.
@@ -45,11 +48,13 @@ double closest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& 
 
 OnTriangle closest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   constexpr double kNeedle2 = 1e-6;  // square of the sine at a
+  constexpr double kClear = 1e-6;    // of the area: rounding does not reach so far where there is no needle
   const Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap), bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();
   // Inside if the foot on the plane has positive weights; their common divisor is the square of the doubled area.
   double at_b = cc * d1 - bc * d2, at_c = bb * d2 - bc * d1, area2 = bb * cc - bc * bc;
-  if (area2 < kNeedle2 * bb * cc) {
+  const bool is_needle = area2 < kNeedle2 * bb * cc;
+  if (is_needle) {
     const Eigen::Vector2d weights = weights_in_needle(ab, ac, ap);
     at_b = weights[0], at_c = weights[1], area2 = 1;
   }
@@ -58,7 +63,10 @@ OnTriangle closest_on_triangle(const Vector3d& p, const Vector3d& a, const Vecto
     const Vector3d point = a + v * ab + w * ac;
     return {point, Vector3d(1 - v - w, v, w), (p - point).squaredNorm()};
   }
-  return closest_on_sides(p, {&a, &b, &c});
+  const double clear = kClear * area2;
+  return closest_on_sides(p, {&a, &b, &c},
+                          {!is_needle && at_c > clear, !is_needle && area2 - at_b - at_c > clear,
+                           !is_needle && at_b > clear});
 }
 
 }  // namespace qmorph::space

@@ -59,11 +59,11 @@ double scaled_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
   return *std::min_element(sines.begin(), sines.end());
 }
 
-/// The same if every corner turns so clearly the way that these normals do that others nearby would say so, too.
+/// The same if every corner turns so clearly the way that these normals do that others nearby would say so, too:
+/// `clear` is the cosine between a corner's cross product and the normals that is enough for that.
 template <std::size_t N>
-std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>& normals) {
-  constexpr double kClear = 0.5;  // cosine between a corner's cross product and the normals
-  const double clear_of_whole = kClear * normals.whole.norm();
+std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>& normals, double clear = 0.5) {
+  const double clear_of_whole = clear * normals.whole.norm();
   Corners<N> sides;
   std::array<double, N> squares;
   for (std::size_t i = 0; i < N; ++i) sides[i] = p[(i + 1) % N] - p[i], squares[i] = sides[i].squaredNorm();
@@ -72,7 +72,7 @@ std::optional<double> clear_jacobian(const Corners<N>& p, const CornerNormals<N>
     const std::size_t before = (i + N - 1) % N;
     const Eigen::Vector3d cross = sides[before].cross(sides[i]);
     const double area = cross.norm();
-    if (!(cross.dot(normals.at[i]) > kClear * area) || !(cross.dot(normals.whole) > clear_of_whole * area)) return {};
+    if (!(cross.dot(normals.at[i]) > clear * area) || !(cross.dot(normals.whole) > clear_of_whole * area)) return {};
     least = std::min(least, area / std::sqrt(squares[i] * squares[before]));
   }
   return least;

@@ -161,10 +161,11 @@ double MeshOnSurface::smallest_sine(Index f) const {
 
 std::optional<double> MeshOnSurface::clear_sine(Index f) const {
   const Face& face = mesh_.faces[f];
-  for (Index i = 0; i < chart::degree(face); ++i)
-    if (!whole_.is_smooth(mesh_.on[face[i]])) return {};
-  return chart::degree(face) == 4 ? clear_jacobian(corners<4>(face), normals<4>(f))
-                                  : clear_jacobian(corners<3>(face), normals<3>(f));
+  double cosine = 0;
+  for (Index i = 0; i < chart::degree(face); ++i) cosine = std::max(cosine, whole_.clear_cosine(mesh_.on[face[i]]));
+  if (cosine > 1) return {};
+  return chart::degree(face) == 4 ? clear_jacobian(corners<4>(face), normals<4>(f), cosine)
+                                  : clear_jacobian(corners<3>(face), normals<3>(f), cosine);
 }
 
 bool MeshOnSurface::is_clearly_above(Index f, double sine) const {

@@ -48,11 +48,12 @@ TriangleTree::TriangleTree(std::span<const Vector3d> points, std::span<const Bac
   for (Index t = 0; t < triangles.size(); ++t) places[t] = {z_code(boxes[t].center(), all), t};
   std::sort(places.begin(), places.end());
   order_.reserve(places.size());
-  for (const auto& place : places) order_.push_back(place.second);
+  of_triangle_.reserve(places.size());
+  for (const auto& place : places) order_.push_back(place.second), of_triangle_.push_back(boxes[place.second]);
 
   while (leaves_ * kLeaf < order_.size()) leaves_ *= 2;
   boxes_.assign(2 * leaves_, AlignedBox3d());
-  for (std::size_t i = 0; i < order_.size(); ++i) boxes_[leaves_ + i / kLeaf].extend(boxes[order_[i]]);
+  for (std::size_t i = 0; i < order_.size(); ++i) boxes_[leaves_ + i / kLeaf].extend(of_triangle_[i]);
   for (std::size_t n = leaves_ - 1; n > 0; --n) boxes_[n] = boxes_[2 * n].merged(boxes_[2 * n + 1]);
 }
 
@@ -72,6 +73,7 @@ Foot TriangleTree::closest(const Vector3d& p, double within, std::span<const Ind
       const std::size_t first = (node - leaves_) * kLeaf, last = std::min(first + kLeaf, order_.size());
       for (std::size_t i = first; i < last; ++i) {
         if (!label.empty() && label[order_[i]] != only) continue;
+        if (!(of_triangle_[i].squaredExteriorDistance(p) < best.distance2)) continue;
         const auto& [a, b, c] = triangles_[order_[i]];
         const OnTriangle there = closest_on_triangle(p, points_[a], points_[b], points_[c]);
         if (there.distance2 < best.distance2) best = {there, order_[i]};

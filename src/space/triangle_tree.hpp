@@ -29,6 +29,7 @@ class QMORPH_API TriangleTree {
   std::span<const Eigen::Vector3d> points_;
   std::span<const Background::Triangle> triangles_;
   std::vector<Index> order_;  ///< triangles along a curve that fills space, those of a leaf one after another
+  std::vector<Eigen::AlignedBox3d> of_triangle_;  ///< in this order
   /// A complete binary tree: node n has the children 2 n and 2 n + 1, the root is 1, leaves come last.
   std::vector<Eigen::AlignedBox3d> boxes_;
   std::size_t leaves_ = 1;

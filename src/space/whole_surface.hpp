@@ -22,7 +22,7 @@ class WholeSurface {
   const SurfaceNormals& normals() const { return *normals_; }
   /// Where a triangle of the region is in the surface.
   Index row(Index triangle) const { return row_.empty() ? triangle : row_[triangle]; }
-  bool is_smooth(Index triangle) const { return surface_->is_smooth(row(triangle)); }
+  double clear_cosine(Index triangle) const { return surface_->clear_cosine(row(triangle)); }
 
  private:
   const Background* surface_;

@@ -270,7 +270,8 @@ TEST_CASE("curved: tries end in time on what overlaps itself everywhere") {
       const std::size_t size = region.region.triangles.size();
       Budget budget(budget_of_call(double(size)));
       try {
-        chart::work_on_region(region, Options(), budget, chart::Task::convert);
+        chart::SharedDivision shared;
+        chart::work_on_region(region, Options(), budget, chart::Task::convert, shared);
       } catch (const SurfaceError&) {
       }
       CHECK(budget.spent() < kMostTries * allowance(size));
