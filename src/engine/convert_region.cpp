@@ -209,16 +209,21 @@ class RegionConverter {
     if (!paired.fault && (has_fewer_poor || (is_astray && is_better(other, worth)))) best = std::move(paired);
   }
 
+  /// What the first attempt may cost. Where others can follow, everything would be spent on the repair of a poor front;
+  /// but what is not even repaired is worth less than another try.
+  double work_for_first(std::size_t size) const {
+    constexpr double kToRepair = 600, kLeast = 0.35, kMost = 0.7;
+    if (!is_small_ || tries_ == Tries::one || plane_.curved) return allowed_;
+    return std::clamp(kToRepair * double(size), kLeast * allowed_, kMost * allowed_);
+  }
+
   /// The first attempt, or the most promising of those with other constants of the front. `size`: triangles that the
   /// front begins with.
   Attempt best_of_tries(std::size_t size) {
     // Under the first it is the boundary that is poor, and no try changes that.
     constexpr double kHopeless = 0.1, kPoor = 0.4;
     constexpr int kMostIfPoor = 2;
-    // What the first may cost where others can follow: on the repair of a poor front everything would be spent.
-    constexpr double kFirst = 0.35;
-    const bool others_follow = is_small_ && tries_ != Tries::one && !plane_.curved;
-    Attempt best = begin(start_, options_, others_follow ? kFirst * allowed_ : allowed_, Way::one_of_many);
+    Attempt best = begin(start_, options_, work_for_first(size), Way::one_of_many);
     finish(best);
     take_rows(best);
     take_chords(best);

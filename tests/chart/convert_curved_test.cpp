@@ -268,7 +268,7 @@ TEST_CASE("curved: tries end in time on what overlaps itself everywhere") {
       for (double& x : p) x += rng.between(-3, 3);
     for (const chart::CurvedRegion& region : chart::curved_regions(patch, 0.7)) {
       const std::size_t size = region.region.triangles.size();
-      Budget budget(budget_of_call(double(size)));
+      Budget budget(budget_of_call(double(size), CallKind::curved));
       try {
         chart::SharedDivision shared;
         chart::work_on_region(region, Options(), budget, chart::Task::convert, shared);

@@ -10,12 +10,22 @@
 
 namespace benchmark {
 
-struct HardInput {
-  std::string name;  ///< what is hard about it, in a few words
-  std::function<std::vector<qmorph::Patch>()> make;
+/// How large an input is to be.
+struct Size {
+  double share = 1;  ///< of its usual triangles, about
+  /// So many rows, columns or edges where the triangles are in proportion to them.
+  int along(int usual) const;
+  /// The same where there are two such numbers.
+  int each_way(int usual) const;
+  double each_way(double usual) const;
 };
 
-/// Between 3 000 and 100 000 triangles each.
+struct HardInput {
+  std::string name;  ///< what is hard about it, in a few words
+  std::function<std::vector<qmorph::Patch>(const Size&)> make;
+};
+
+/// Between 3 000 and 100 000 triangles each, usually.
 std::vector<HardInput> hard_inputs();
 
 }  // namespace benchmark

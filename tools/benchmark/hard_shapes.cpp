@@ -48,24 +48,27 @@ std::vector<Vector2d> cloud(int count, Random& random) {
 // --- stretched
 // ----------------------------------------------------------------------------------------------------------
 
-Patch uneven_stretch() {
+Patch uneven_stretch(int columns, int rows) {
   Random random(3);
-  Patch patch = lattice(60, 46, 0.2, random);
-  map_points(patch, [](const Vector2d& p) {
-    const double x = p.x() / 60, y = p.y() / 46;
+  Patch patch = lattice(columns, rows, 0.2, random);
+  map_points(patch, [=](const Vector2d& p) {
+    const double x = p.x() / columns, y = p.y() / rows;
     return Vector2d(std::expm1(6 * x), std::expm1(6 * y));
   });
   return with_lines(std::move(patch), 0.2, random);
 }
 
-Patch boundary_layer() {
-  Patch patch = grid(160, 60);
+Patch boundary_layer(int around, int rows) {
+  Patch patch = grid(around, rows);
+  const auto edges = Index(around);
   for (auto& t : patch.triangles)
     for (Index& v : t)
-      if (v % 161 == 160) v -= 160;  // a ring
+      if (v % (edges + 1) == edges) v -= edges;  // a ring
   keep_triangles(patch, [](const Vector2d&) { return true; });
-  map_points(patch,
-             [](const Vector2d& p) { return on_circle(-p.x() / 160, 1 + 1e-6 * std::expm1(0.23 * p.y()) / 0.23); });
+  const double growth = 13.8 / rows;
+  map_points(patch, [=](const Vector2d& p) {
+    return on_circle(-p.x() / around, 1 + 1e-6 * std::expm1(growth * p.y()) / growth);
+  });
   return patch;
 }
 

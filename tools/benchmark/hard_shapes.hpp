@@ -14,9 +14,9 @@ Patch with_lines(Patch patch, double share, Random& random);
 Patch with_fixed_nodes(Patch patch, double share, Random& random);
 std::vector<Vector2d> cloud(int count, Random& random);
 /// Aspects from 1 to about 600, in any direction, and lines here and there.
-Patch uneven_stretch();
+Patch uneven_stretch(int columns, int rows);
 /// Rows of geometric heights on all four sides of a square hole, from 1e-6 of the outer ones.
-Patch boundary_layer();
+Patch boundary_layer(int around, int rows);
 /// All triangles meet at one node, in the middle or on the outline.
 Patch fan(Index count, bool inside);
 /// Square cells that share their sides, with a fan in each.

@@ -12,14 +12,24 @@
 namespace benchmark {
 namespace {
 
-Figures convert(const HardInput& input) {
-  const std::vector<qmorph::Patch> patches = input.make();
+std::size_t count_triangles(const std::vector<qmorph::Patch>& patches) {
+  std::size_t count = 0;
+  for (const qmorph::Patch& patch : patches) count += patch.triangles.size() + 2 * patch.quads.size();
+  return count;
+}
+
+std::vector<qmorph::Patch> make(const HardInput& input, std::optional<double> triangles) {
+  std::vector<qmorph::Patch> usual = input.make({});
+  if (!triangles) return usual;
+  return input.make({*triangles / double(count_triangles(usual))});
+}
+
+Figures convert(const HardInput& input, std::optional<double> triangles) {
+  const std::vector<qmorph::Patch> patches = make(input, triangles);
   std::vector<const qmorph::Patch*> pointers;
   Figures figures;
-  for (const qmorph::Patch& patch : patches) {
-    pointers.push_back(&patch);
-    figures.triangles += patch.triangles.size() + 2 * patch.quads.size();
-  }
+  figures.triangles = count_triangles(patches);
+  for (const qmorph::Patch& patch : patches) pointers.push_back(&patch);
   qmorph::Options options;
   options.threads = 1;
   const std::clock_t start = std::clock();
@@ -54,13 +64,13 @@ Figures convert(const HardInput& input) {
 
 }  // namespace
 
-bool time_hard_inputs(const std::string& word, double limit) {
+bool time_hard_inputs(const std::string& word, std::optional<double> triangles, double limit) {
   std::printf("%-52s %8s %8s %7s %8s %6s %7s %6s %6s %7s %7s %6s\n", "", "triangles", "seconds", "us/tri", "quads",
               "left", "SJ min", "mean", "front", "elimin.", "cleanup", "smooth");
   bool all_quick = true;
   for (const HardInput& input : hard_inputs()) {
     if (input.name.find(word) == std::string::npos) continue;
-    const Ran ran = run_apart([&] { return convert(input); }, limit);
+    const Ran ran = run_apart([&] { return convert(input, triangles); }, limit);
     if (ran.end != End::finished) {
       std::printf("%-52s %s\n", input.name.c_str(), ran.end == End::over_limit ? "over the limit" : "failed");
       std::fflush(stdout);
