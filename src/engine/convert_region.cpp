@@ -9,6 +9,7 @@
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
 #include "cleanup/raise_worth.hpp"
+#include "cleanup/refill.hpp"
 #include "engine/ear.hpp"
 #include "engine/fans.hpp"
 #include "engine/front_variants.hpp"
@@ -90,6 +91,7 @@ class RegionConverter {
         result = best_of_tries(size);
         spend_rest(result);
         climb(result);
+        refill(result);
       } else {
         result = begin(std::move(start_), options_, allowed_);
         if (result.fault) {
@@ -103,6 +105,7 @@ class RegionConverter {
         take_rows(result);
         take_chords(result);
         take_pairs(result);
+        refill(result);
       }
       if (!result.fault) return result;
       fault = result.fault;
@@ -295,6 +298,21 @@ class RegionConverter {
     const Worth before = judge(best.mesh), after = judge(mesh);
     if (after.sum() <= before.sum() || after.least < std::min(before.least, Worth::kGoodEnough)) return;
     if (find_fault(mesh, region_, plane_)) return;
+    best.mesh = std::move(mesh);
+    if (wants_stages(best.options)) best.record.stages[std::size_t(Stage::repair)] = best.mesh;
+  }
+
+  /// In the end, whichever attempt it was: what is around poor quads by an exact search.
+  void refill(Attempt& best) {
+    if (best.fault || plane_.curved || !cleanup::has_poor_quads(best.mesh)) return;
+    kernel::Mesh mesh = best.mesh;
+    const std::size_t spent = mesh.work();
+    const std::size_t changes =
+        cleanup::refill_around_poor(mesh, options_.smoothing, {mesh, std::size_t(std::max(0.0, budget_.left()))});
+    spend(mesh.work() - spent);
+    if (changes == 0) return;
+    if (is_small_) raise_corners(mesh, options_.smoothing);
+    if (judge(mesh).least < judge(best.mesh).least || find_fault(mesh, region_, plane_)) return;
     best.mesh = std::move(mesh);
     if (wants_stages(best.options)) best.record.stages[std::size_t(Stage::repair)] = best.mesh;
   }

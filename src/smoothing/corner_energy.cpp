@@ -15,6 +15,9 @@ using kernel::Mesh;
 constexpr int kPower = 6;
 /// Sines do not see lengths: corners whose edges differ a lot cost as if they were sharper.
 constexpr double kLengthWeight = 0.1;
+/// The sum of the squared ratios, one way and the other, counts up to this, about five to one: beside an edge of the
+/// boundary that is far shorter corners would cost so much for what no node can change that sharp ones stayed.
+constexpr double kMostLengthRatio = 25;
 
 /// A corner with the edges a and b. Its energy is f^kPower with
 ///   f = |a|^2 |b|^2 / J^2 = 1 / sine^2, for the area J = a x b,
@@ -53,7 +56,7 @@ bool add(Energy& energy, const CornerTerm& c, bool derive) {
     energy.finite = false;
     return false;
   }
-  const double ratio = aa / bb + bb / aa;
+  const double ratio = std::min(aa / bb + bb / aa, kMostLengthRatio);
   const double f = aa * bb / (j * j) * (1 - kLengthWeight + kLengthWeight * 0.5 * ratio);
   const double cube = f * f * f, value = cube * cube;  // f^kPower; std::pow rounds in a way of its own on each machine
   energy.value += value;

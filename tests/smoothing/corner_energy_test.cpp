@@ -73,3 +73,17 @@ TEST_CASE("raise corners: an inverted element makes no node move to where others
   raise_worst_corners(mesh, {});
   CHECK(topology::smallest_sine(mesh) >= before);
 }
+
+TEST_CASE("raise corners: at the mouth of a channel that is far narrower than quads are long corners rise, too") {
+  constexpr double kHalf = 0.0167;  // of its width
+  const std::vector<Vec2> points = {{0, kHalf},    {-0.018, 0},    {0, -kHalf}, {-0.5, 0.87},  {-0.5, -0.87},
+                                    {-0.42, 0.39}, {-0.41, -0.33}, {-0.81, 0},  {-1.24, 0.73}, {-1.24, -0.6},
+                                    {1, kHalf},    {1.02, 0},      {1, -kHalf}};
+  const std::vector<std::array<Index, 4>> quads = {{0, 3, 5, 1}, {1, 5, 7, 6},   {1, 6, 4, 2},  {3, 8, 7, 5},
+                                                   {4, 6, 7, 9}, {1, 2, 12, 11}, {1, 11, 10, 0}};
+  Mesh mesh(points, quads, {});
+  REQUIRE(defect(mesh) == "");
+  REQUIRE(topology::smallest_sine(mesh) < 0.37);
+  raise_worst_corners(mesh, {});
+  CHECK(topology::smallest_sine(mesh) > 0.45);
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cleanup/refill.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "cleanup/attempt.hpp"
+#include "cleanup/quadrangulations.hpp"
+#include "kernel/sort_unique.hpp"
+
+namespace qmorph::cleanup {
+namespace {
+
+/// Sines of the quads that something is tried for, and up to which a quad counts as poor, the more the poorer it is.
+constexpr double kTried = 0.45, kPoor = 0.6;
+/// What one of the valence score costs, and what all sines together lose, and what a change has to bring: in quads of
+/// sine 0.
+constexpr double kPriceOfScore = 0.03, kPriceOfLoss = 0.15, kLeastGain = 0.02;
+/// Rings of quads around the poor one that are replaced with it, first few, then more; without a ring those that share a
+/// side with it.
+constexpr std::array kRingsReplaced{0, 1, 2};
+/// With more a search would end before it has found all.
+constexpr std::size_t kLongestOutline = 20, kMostSteps = 10'000;
+/// What the new valences may cost more than the old ones, and how many more nodes there may be inside.
+constexpr int kMostScore = 4, kMostMore = 1;
+/// Fillings that are relaxed.
+constexpr std::size_t kMostTries = 24;
+constexpr std::size_t kWorkOfStep = 20;
+constexpr int kRingsRelaxed = 1;
+
+bool is_poor(const kernel::Mesh& mesh, Index f) {
+  return mesh.is_live_face(f) && mesh.is_quad(f) && !mesh.is_above(f, kTried);
+}
+
+/// A disc of quads whose inner nodes are free.
+struct Window {
+  std::vector<Index> faces, outline, inner;
+};
+
+std::optional<Window> window_of(const kernel::Mesh& mesh, std::vector<Index> faces) {
+  Window window;
+  std::erase_if(faces, [&](Index f) { return !mesh.is_quad(f); });
+  sort_unique(faces);
+  window.faces = std::move(faces);
+  const std::set<Index> inside(window.faces.begin(), window.faces.end());
+  std::map<Index, Index> leaving;  // by node of the outline: its half-edge
+  std::set<Index> nodes;
+  for (Index f : window.faces)
+    for (Index h : mesh.sides_of(f)) {
+      nodes.insert(mesh.origin(h));
+      if (inside.contains(mesh.face(kernel::Mesh::twin(h)))) continue;
+      if (!leaving.emplace(mesh.origin(h), h).second) return {};  // it touches itself
+    }
+  if (leaving.empty() || leaving.size() > kLongestOutline) return {};
+  Index h = leaving.begin()->second;
+  do {
+    window.outline.push_back(h);
+    h = leaving.at(mesh.target(h));
+  } while (h != window.outline.front() && window.outline.size() <= leaving.size());
+  if (window.outline.size() != leaving.size()) return {};  // it has a hole
+  for (Index v : nodes)
+    if (!leaving.contains(v)) window.inner.push_back(v);
+  const bool is_disc = window.faces.size() + 1 == window.inner.size() + window.outline.size() / 2;
+  const bool is_free = std::all_of(window.inner.begin(), window.inner.end(), [&](Index v) { return mesh.is_free(v); });
+  if (!is_disc || !is_free) return {};
+  return window;
+}
+
+class Refilling {
+ public:
+  Refilling(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
+      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
+    relaxing_.iterations = std::max(relaxing_.iterations, 12);
+    relaxing_.untangling_sweeps = 12;
+  }
+
+  std::size_t run() {
+    std::vector<Index> poor;
+    for (Index f = 0; f < mesh_.face_slots(); ++f)
+      if (is_poor(mesh_, f)) poor.push_back(f);
+    std::size_t replaced = 0;
+    for (Index f : worst_first(mesh_, std::move(poor)))
+      if (!budget_.is_spent() && is_poor(mesh_, f)) replaced += improve(f);
+    return replaced;
+  }
+
+ private:
+  bool improve(Index f) {
+    for (const int rings : kRingsReplaced) {
+      std::vector<Index> faces = topology::grow(mesh_, {f}, rings);
+      if (rings == 0)
+        for (Index h : mesh_.sides_of(f))
+          if (const Index other = mesh_.face(kernel::Mesh::twin(h)); other != kNone) faces.push_back(other);
+      if (const auto window = window_of(mesh_, std::move(faces)); window && replace(*window, mesh_.smallest_sine(f)))
+        return true;
+    }
+    return false;
+  }
+
+  /// The outline's node between two of its half-edges. On the boundary it has as many edges at most as leave quads that
+  /// share the angle evenly a sine which is good enough.
+  RingNode node(Index before, Index h) const {
+    const Index v = mesh_.origin(h);
+    RingNode node{1, score_.ideal(v), 3, int(kMostValence), mesh_.point(v), mesh_.is_free(v)};
+    for (Index e = kernel::Mesh::twin(before); e != h; e = mesh_.rotate_ccw(e)) ++node.outer;
+    if (!mesh_.is_boundary(v)) return node;
+    const double angle = score_.inside_angle(v);
+    node.fewest = std::max(node.outer, 2);
+    while (node.most > node.ideal && std::sin(angle / (node.most - 1)) < kTried) --node.most;
+    return node;
+  }
+
+  /// `worst`: the sine of the quad for which this is done.
+  bool replace(const Window& window, double worst) {
+    const std::size_t n = window.outline.size();
+    std::vector<RingNode> ring;
+    int cost = 0;
+    for (Index v : window.inner) cost += score_.cost(v);
+    for (std::size_t i = 0; i < n; ++i) {
+      ring.push_back(node(window.outline[(i + n - 1) % n], window.outline[i]));
+      cost += score_.cost(mesh_.origin(window.outline[i]));
+    }
+    SearchLimits limits;
+    limits.least_sine = worst;
+    limits.most_found = kMostTries;
+    limits.most_steps = kMostSteps;
+    limits.most_cost = cost + kMostScore;
+    limits.most_inner = int(window.inner.size()) + kMostMore;
+    std::size_t steps = 0;
+    const std::vector<Quadrangulation> found = find_quadrangulations(ring, limits, steps);
+    mesh_.add_work(kWorkOfStep * steps);
+    for (const Quadrangulation& q : found) {
+      if (budget_.is_spent()) return false;
+      if (try_filling(window, q, kLeastGain + kPriceOfScore * std::max(0, q.cost - cost))) return true;
+    }
+    return false;
+  }
+
+  struct Shapes {
+    double poor = 0, sum = 0, worst = 1;
+    std::size_t count = 0;  ///< of faces
+  };
+
+  Shapes shapes_of(const std::vector<Index>& faces) const {
+    Shapes shapes;
+    shapes.count = faces.size();
+    mesh_.add_work(faces.size());
+    for (Index f : faces) {
+      const double sine = mesh_.smallest_sine(f), lack = std::max(0.0, kPoor - sine) / kPoor;
+      shapes.poor += lack * lack;
+      shapes.sum += sine;
+      shapes.worst = std::min(shapes.worst, sine);
+    }
+    return shapes;
+  }
+
+  bool try_filling(const Window& window, const Quadrangulation& quadrangulation, double least_gain) {
+    std::vector<Index> nodes = window.inner, fresh;
+    for (Index h : window.outline) nodes.push_back(mesh_.origin(h));
+    const Shapes before = shapes_of(topology::faces_around(mesh_, nodes));
+    nodes.erase(nodes.begin(), nodes.begin() + std::ptrdiff_t(window.inner.size()));
+    mesh_.begin();
+    bool kept = fill(mesh_, window.outline, window.faces, quadrangulation, fresh);
+    if (kept) {
+      settle(fresh);
+      nodes.insert(nodes.end(), fresh.begin(), fresh.end());
+      topology::remove_doublets(mesh_, nodes);
+      kept = smoothing::smooth_near(mesh_, relaxing_, nodes, kRingsRelaxed);
+    }
+    if (kept) {
+      const Shapes after = shapes_of(topology::faces_around(mesh_, nodes));
+      // Fewer elements are no loss, nor more a gain.
+      const double loss = std::max(0.0, before.sum / double(before.count) * double(after.count) - after.sum);
+      kept = before.poor - after.poor - kPriceOfLoss * loss >= least_gain && after.worst >= before.worst;
+    }
+    kept ? mesh_.commit() : mesh_.rollback();
+    return kept;
+  }
+
+  /// New nodes go to the middle of their neighbours.
+  void settle(const std::vector<Index>& nodes) {
+    constexpr int kSweeps = 10;
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+      for (Index v : nodes) mesh_.set_point(v, topology::middle_of_neighbours(mesh_, v));
+  }
+
+  kernel::Mesh& mesh_;
+  Score score_;
+  SmoothingOptions relaxing_;
+  const kernel::Budget& budget_;
+};
+
+}  // namespace
+
+bool has_poor_quads(const kernel::Mesh& mesh) {
+  for (Index f = 0; f < mesh.face_slots(); ++f)
+    if (is_poor(mesh, f)) return true;
+  return false;
+}
+
+std::size_t refill_around_poor(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+  return Refilling(mesh, smoothing, budget).run();
+}
+
+}  // namespace qmorph::cleanup
