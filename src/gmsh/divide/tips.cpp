@@ -23,7 +23,7 @@ constexpr double kWanted = 17;
 constexpr double kLongest = 3;
 /// Of a curve, from one or from both of its ends: there is at least one segment besides.
 constexpr double kMostOfCurve = 0.6, kMostOfBoth = 0.8;
-/// Of a segment: more of it that the length has become one segment more, as Gmsh rounds up.
+/// A remainder longer than this share of a segment becomes one more, since Gmsh rounds up.
 constexpr double kRoundedDown = 0.25;
 /// By how much sizes fall off behind the first segment, per length.
 constexpr double kSlope = 0.8;
