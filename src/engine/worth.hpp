@@ -33,8 +33,8 @@ struct Worth {
 /// `triangles`: how many the region had.
 Worth worth_of(const kernel::Mesh& mesh, std::size_t triangles);
 
-/// Scaled Jacobians that solvers refuse, and that are fair.
-inline constexpr double kRefused = 0.2, kFair = 0.5;
+/// Scaled Jacobians below which solvers complain, and that are fair.
+inline constexpr double kRefused = 0.3, kFair = 0.5;
 
 /// In all; but a mesh that is finer than asked for is better than a quad that solvers refuse, up to a limit.
 bool is_worth_more(const Worth& one, const Worth& other);

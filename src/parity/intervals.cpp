@@ -37,21 +37,34 @@ std::vector<Shares> in_pairs(const Shares& band, const std::vector<int>& sign) {
 
 class Planner {
  public:
-  explicit Planner(const IntervalProblem& problem) : problem_(problem), unknowns_(problem.curves, alike(problem)) {
-    for (Index u = 0; u < unknowns_.size(); ++u) settle(u);
-    for (const Band& band : problem.bands) {
-      shares_.push_back(shares_of(band, unknowns_));
-      is_band_.push_back(may_fit(band));
-    }
+  explicit Planner(const IntervalProblem& problem)
+      : problem_(problem), unknowns_(problem.curves, alike(problem)), toll_(problem.curves.size(), 0) {
+    for (const Band& band : problem.bands) shares_.push_back(shares_of(band, unknowns_));
+    is_band_.assign(shares_.size(), false);
   }
 
   IntervalPlan run() {
+    for (Index u = 0; u < unknowns_.size(); ++u) settle(u);
+    for (Index b = 0; b < shares_.size(); ++b) is_band_[b] = may_fit(problem_.bands[b]);
     std::vector<Shares> bands;
     for (Index b = 0; b < shares_.size(); ++b)
       if (is_band_[b]) bands.push_back(shares_[b]);
     balance(unknowns_, bands, 1);
     make_even();
     balance(unknowns_, bands, 2);
+    return write();
+  }
+
+  /// From the problem's own numbers on: only what makes surfaces even.
+  /// \param toll by curve: what another number costs besides
+  IntervalPlan only_make_even(std::vector<double> toll) {
+    toll_ = std::move(toll);
+    make_even();
+    return write();
+  }
+
+ private:
+  IntervalPlan write() const {
     IntervalPlan plan;
     for (Index c = 0; c < problem_.curves.size(); ++c)
       plan.segments.push_back(unknowns_[unknowns_.of_curve(c)].segments);
@@ -61,7 +74,6 @@ class Planner {
     return plan;
   }
 
- private:
   static std::vector<Row> alike(const IntervalProblem& problem);
 
   /// To the number that costs least.
@@ -91,6 +103,7 @@ class Planner {
   Unknowns unknowns_;
   std::vector<Shares> shares_;  ///< of the bands
   std::vector<char> is_band_;
+  std::vector<double> toll_;  ///< of the problem's curves
 };
 
 /// Images, and curves alone on both sides of a band whose wishes are near.
@@ -159,6 +172,7 @@ std::int64_t Planner::price(Index u) const {
   constexpr double kScale = 1e6;
   double least = unknowns_.price(u, 1);
   if (unknowns_.may_change(u, -1)) least = std::min(least, unknowns_.price(u, -1));
+  for (Index c : unknowns_[u].curves) least += toll_[c];
   return std::max(std::int64_t{1}, std::int64_t(kScale * least));
 }
 
@@ -219,8 +233,36 @@ void Planner::apply(const std::vector<Index>& changed) {
   }
 }
 
+/// Where bands leave surfaces odd, as few of them as possible are given up.
+IntervalPlan give_up_bands(const IntervalProblem& problem, const IntervalPlan& plan) {
+  constexpr double kBroken = 1;  // what a curve of a band costs that gets another number than what is across
+  IntervalProblem rest = problem;
+  rest.bands.clear();
+  std::vector<double> toll(problem.curves.size(), 0);
+  for (const Band& band : problem.bands)
+    for (const std::vector<Index>* side : {&band.one, &band.other})
+      for (Index c : *side) toll[c] += kBroken;
+  for (Index c = 0; c < rest.curves.size(); ++c) {
+    CurveWish& curve = rest.curves[c];
+    curve.segments = plan.segments[c];
+    curve.least = std::min(curve.least, curve.segments);
+  }
+  IntervalPlan other = Planner(rest).only_make_even(std::move(toll));
+  const auto sum = [&](const std::vector<Index>& curves) {
+    return std::accumulate(curves.begin(), curves.end(), 0, [&](int s, Index c) { return s + other.segments[c]; });
+  };
+  other.fitting = std::size_t(std::count_if(problem.bands.begin(), problem.bands.end(),
+                                            [&](const Band& band) { return sum(band.one) == sum(band.other); }));
+  return other;
+}
+
 }  // namespace
 
-IntervalPlan plan_intervals(const IntervalProblem& problem) { return Planner(problem).run(); }
+IntervalPlan plan_intervals(const IntervalProblem& problem) {
+  IntervalPlan plan = Planner(problem).run();
+  if (plan.odd.empty()) return plan;
+  IntervalPlan other = give_up_bands(problem, plan);
+  return other.odd.size() < plan.odd.size() ? other : plan;
+}
 
 }  // namespace qmorph::parity

@@ -381,6 +381,28 @@ TEST_CASE("divide: where two curves come close and part again, nodes face each o
   CHECK(worst > 0.3);
 }
 
+TEST_CASE("divide: where the short end of a rib is close to the edge of a plate, that has a segment as short") {
+  for (const double gap : {0.03, 0.1, 0.2}) {
+    CAPTURE(gap);
+    const auto [snapshot, worst] = convert(fmt::format(R"(SetFactory("OpenCASCADE");
+      Rectangle(1) = {{0, 0, 0, 12, 8}}; Rectangle(2) = {{3.3, {}, 0, 0.44, 5}};
+      BooleanDifference{{ Surface{{1}}; Delete; }}{{ Surface{{2}}; Delete; }}
+      Mesh.MeshSizeMax = 1;)",
+                                                       gap));
+    CHECK(worst > 0.35);
+  }
+}
+
+TEST_CASE("divide: a coarse circle that cannot have a segment fewer has one more") {
+  const auto [snapshot, worst] = convert(R"(SetFactory("OpenCASCADE");
+    Cylinder(1) = {0, 0, 0, 0, 0, 0.4, 0.15}; Dilate{{0, 0, 0}, {5, 5, 5}} { Volume{1}; }
+    Mesh.MeshSizeMin = 1; Mesh.MeshSizeMax = 1;)");
+  CHECK(segments(snapshot, 1) == 6);  // of Gmsh: 5
+  CHECK(segments(snapshot, 1) == segments(snapshot, 3));
+  const std::vector<double> circle = lengths(snapshot, 1);
+  CHECK(*std::max_element(circle.begin(), circle.end()) < 1.05 * *std::min_element(circle.begin(), circle.end()));
+}
+
 TEST_CASE("divide: closed curves that come close to others get a node there, too") {
   for (const char* holes : {"Disk(2) = {-0.7, 0, 0, 0.68}; Disk(3) = {0.7, 0.1, 0, 0.7};",
                             "Disk(2) = {1.16, 0.3, 0, 0.78}; Disk(3) = {-1.27, 0, 0, 0.7};"}) {

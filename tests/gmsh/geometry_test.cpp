@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "gmsh/session/compat.hpp"
@@ -270,6 +271,18 @@ TEST_CASE("geometry: surfaces made of facets are meshed with the sizes that the 
     CHECK(quads > 28 * 16 / 2);  // the area is 28
     CHECK(quads < 28 * 16 * 2);
   }
+}
+
+TEST_CASE("geometry: a fillet much narrower than the size, with a node in the middle of its ends, becomes rows") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", R"(SetFactory("OpenCASCADE");
+    Circle(1) = {0, 0, 0, 2.09, 0, 1.06}; Extrude{0, 0, 45} { Curve{1}; }
+    Mesh.MeshSizeMin = 9; Mesh.MeshSizeMax = 9;)");
+  REQUIRE(run_qmorph({directory / "in.geo", "-o", directory / "out.msh", "--stats", directory / "out.json"}).status ==
+          0);
+  const auto total = nlohmann::json::parse(read_file(directory / "out.json"))["total"];
+  CHECK(total["quads"] == 10);
+  CHECK(total["scaled_jacobian"]["min"].get<double>() > 0.95);  // leaning quads without irregular nodes: 0.23
 }
 
 TEST_CASE("geometry: what a script has meshed stays, and what it makes afterwards is meshed") {

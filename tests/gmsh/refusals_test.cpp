@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
 #include <string>
 
 #include "gmsh/session/compat.hpp"
@@ -161,6 +163,29 @@ TEST_CASE("refused: two surfaces with the same elements") {
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CHECK(result.status == 3);
   CHECK(mentions(result.err, "surface 2: 32 triangles left as they were: surface 1 has the same element at node"));
+}
+
+TEST_CASE("refused: not two surfaces that happen to have a triangle in common, between curves of both") {
+  const TemporaryDirectory directory;
+  // A hexagon in four triangles, and a bowl that hangs from its outline: the triangle in the middle is in both.
+  std::vector<std::array<double, 3>> nodes;
+  for (int k = 0; k < 6; ++k) nodes.push_back({std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0});
+  std::vector<std::string> elements;
+  for (int k = 0; k < 6; ++k) elements.push_back(row("1 2 0 1", std::array<int, 2>{k + 1, (k + 1) % 6 + 1}));
+  for (const char* surface : {"2 2 0 1", "2 2 0 2"}) elements.push_back(row(surface, std::array<int, 3>{1, 3, 5}));
+  for (int k = 0; k < 6; k += 2) {
+    const std::array<int, 3> ear{k + 1, k + 2, (k + 2) % 6 + 1};
+    elements.push_back(row("2 2 0 1", ear));
+    nodes.push_back({0.85 * std::cos((k + 1) * M_PI / 3), 0.85 * std::sin((k + 1) * M_PI / 3), -0.1});
+    const int inside = int(nodes.size());
+    for (int side = 0; side < 3; ++side)
+      elements.push_back(
+          row("2 2 0 2", std::array<int, 3>{ear[std::size_t(side)], ear[std::size_t(side + 1) % 3], inside}));
+  }
+  write_file(directory / "in.msh", msh22(nodes, elements));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
 }
 
 TEST_CASE("refused: coordinates whose squares are no numbers") {

@@ -264,6 +264,21 @@ TEST_CASE("intervals: periodic images keep equal numbers, whatever lies between 
   }
 }
 
+TEST_CASE("intervals: where a band leaves a surface odd, it is given up") {
+  // Four sides between two surfaces, each with another curve whose number is fixed: odd on one side, even on the other.
+  IntervalProblem problem;
+  problem.curves = {wish_for(5), wish_for(4), wish_for(4), wish_for(6), wish_for(6), wish_for(4)};
+  problem.curves[0].fixed = problem.curves[5].fixed = true;
+  problem.surfaces = {{0, 1}, {1, 2, 3, 4}, {2, 5}};
+  problem.bands = {{1, {1}, {2}}, {1, {3}, {4}}};
+  const IntervalPlan plan = plan_intervals(problem);
+  CHECK(plan.odd.empty());
+  CHECK(plan.segments[0] == 5);
+  CHECK(plan.segments[5] == 4);
+  CHECK(plan.segments[1] % 2 == 1);
+  CHECK(plan.segments[2] == 4);
+}
+
 TEST_CASE("intervals: a surface that no number may change for stays odd, and is named") {
   IntervalProblem problem;
   problem.curves = {{3, 3, 3, true}, {4, 4, 4, true}, {5.9, 6, 5, false}};

@@ -17,8 +17,10 @@ using Box = Eigen::AlignedBox3d;
 
 /// A surface is thin where it is thinner than so many sizes.
 constexpr double kThin = 0.3;
-/// No piece is shorter than so many sizes.
+/// No piece is shorter than so many sizes, unless what faces it is.
 constexpr double kShortest = 0.5;
+/// What faces each other may differ in length by this factor.
+constexpr double kLonger = 1.25;
 
 /// Where on a curve the nearest point to `p` is, in segments of its finer nodes, and how far away.
 std::pair<double, double> nearest_on(const DividedCurve& curve, const Vector3d& p) {
@@ -70,10 +72,29 @@ class Cutter {
     std::sort(corners.begin(), corners.end(), is_less);
     corners.erase(std::unique(corners.begin(), corners.end(), is_same), corners.end());
     for (Index c : surface.boundary)
+      for (Index d : surface.boundary) look_for_short_side(c, d);
+    for (Index c : surface.boundary)
       if (may_cut_[c])
         for (const auto& [point, place] : corners) look_at(c, point, place);
     for (std::size_t i = 0; i < surface.boundary.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) look_for_neck(surface.boundary[i], surface.boundary[j]);
+  }
+
+  /// Where a curve shorter than the size lies close to a longer one, as the end of a rib does to the edge of a plate, the
+  /// longer one has a piece as short.
+  void look_for_short_side(Index c, Index d) {
+    const DividedCurve &curve = model_.curves[c], &side = model_.curves[d];
+    if (c == d || !may_cut_[c] || side.segments == 0 || side.length > curve.size()) return;
+    const double thin = kThin * curve.size();
+    if (boxes_[c].exteriorDistance(boxes_[d]) > thin) return;
+    for (int end : side.ends)
+      if (end == curve.ends[0] || end == curve.ends[1]) return;
+    auto [from, gap] = nearest_on(curve, side.points.front());
+    auto [to, other_gap] = nearest_on(curve, side.points.back());
+    if (from > to) std::swap(from, to);
+    const double length = (to - from) * curve.length / curve.finer;
+    if (std::max(gap, other_gap) > thin || length > kLonger * side.length || side.length > kLonger * length) return;
+    if (may_add(c, from) && may_add(c, to)) cuts_[c].insert(cuts_[c].end(), {from, to});
   }
 
   /// Where two curves come close to each other and part again, both get a node there, so that the next ones face each
@@ -97,14 +118,16 @@ class Cutter {
     add(d, nearest_on(other, one.points[neck]).first);
   }
 
-  /// A cut, if no piece becomes too short.
-  void add(Index c, double at) {
+  /// Whether no piece becomes too short.
+  bool may_add(Index c, double at) const {
     const DividedCurve& curve = model_.curves[c];
     const double shortest = kShortest * finer_in_size(curve);
-    if (at < shortest || at > curve.finer - shortest) return;
-    std::vector<double>& cuts = cuts_[c];
     const auto is_near = [&](double cut) { return std::abs(cut - at) < shortest; };
-    if (std::none_of(cuts.begin(), cuts.end(), is_near)) cuts.push_back(at);
+    return at >= shortest && at <= curve.finer - shortest && std::none_of(cuts_[c].begin(), cuts_[c].end(), is_near);
+  }
+
+  void add(Index c, double at) {
+    if (may_add(c, at)) cuts_[c].push_back(at);
   }
 
   void look_at(Index c, int point, const Vector3d& place) {
@@ -148,20 +171,20 @@ class Cutter {
     for (Index s = 0; s < model_.surfaces.size(); ++s)
       for (Index c : model_.surfaces[s].boundary)
         for (Index piece : pieces[c])
-          if (pieces[c].size() > 1) match(result, result.surfaces[s], piece, may_change);
+          if (pieces[c].size() > 1) match(result, result.surfaces[s], piece, model_.curves[c].size(), may_change);
     return result;
   }
 
   /// The piece and the curve that faces it from end to end want as many segments, whatever their sizes are.
-  void match(CurveModel& result, const BoundedSurface& surface, Index piece,
+  void match(CurveModel& result, const BoundedSurface& surface, Index piece, double size,
              const std::vector<bool>& may_change) const {
-    constexpr double kLonger = 1.25;
+    constexpr int kFew = 2;  // segments of a curve that is as short as curves may be
     const DividedCurve& one = result.curves[piece];
     for (Index c : surface.boundary) {
       const DividedCurve& other = result.curves[c];
-      if (c == piece || other.segments == 0 || !may_change[c]) continue;
+      if (c == piece || other.segments == 0 || !(may_change[c] || other.segments <= kFew)) continue;
       if (std::max(one.length, other.length) > kLonger * std::min(one.length, other.length)) continue;
-      const double thin = kThin * one.size();
+      const double thin = kThin * size;
       const auto is_near = [&](const Vector3d& a, const Vector3d& b) { return (a - b).norm() <= thin; };
       const Vector3d &p = one.points.front(), &q = one.points.back(), &u = other.points.front(),
                      &v = other.points.back();

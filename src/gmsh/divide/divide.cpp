@@ -43,7 +43,20 @@ bool is_divided(const CurveModel& model, const BoundedSurface& surface) {
   return false;
 }
 
-IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const std::set<Index>& stubborn) {
+/// What Gmsh has refused: numbers below its own of some curves, all others of others.
+struct Refusals {
+  std::set<Index> fewer, any;
+
+  /// \param curves that have not become what the plan wants
+  void add(const CurveModel& model, const IntervalPlan& plan, const std::set<Index>& curves) {
+    for (Index c : curves) {
+      const bool less = plan.segments[c] < model.curves[c].segments;
+      (less && !fewer.count(c) ? fewer : any).insert(c);
+    }
+  }
+};
+
+IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const Refusals& refused) {
   constexpr int kFew = 4;
   constexpr double kMostFewer = 0.75;
   IntervalProblem problem;
@@ -53,7 +66,8 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const st
     wish.segments = curve.is_spare ? 1 : curve.segments;
     wish.wish = curve.wish();
     wish.least = wish.segments <= kFew ? wish.segments : std::max(kFew, int(std::ceil(kMostFewer * curve.segments)));
-    wish.fixed = !curve.depends_on_size() || task.kept_curves.count(curve.tag) || stubborn.count(c);
+    if (refused.fewer.count(c)) wish.least = wish.segments;
+    wish.fixed = !curve.depends_on_size() || task.kept_curves.count(curve.tag) || refused.any.count(c);
     if (const auto given = task.given.find(curve.tag); given != task.given.end()) {
       wish.segments = given->second;
       wish.fixed = true;
@@ -206,11 +220,11 @@ DivisionReport divide_curves(const DivisionTask& task) {
   DivisionReport report = report_on(*model);
   const std::vector<bool> may = may_change(*model, task);
   model = cut_at_narrow_places(mark_tips(std::move(*model), may), may);
-  std::set<Index> stubborn;
+  Refusals refused;
   for (int round = 0; round < kRounds; ++round) {
-    const IntervalPlan plan = parity::plan_intervals(pose(*model, task, stubborn));
+    const IntervalPlan plan = parity::plan_intervals(pose(*model, task, refused));
     const std::set<Index> others = carry_out(*model, plan);
-    stubborn.insert(others.begin(), others.end());
+    refused.add(*model, plan, others);
     if (!others.empty()) continue;
     if (std::any_of(model->surfaces.begin(), model->surfaces.end(),
                     [&](const BoundedSurface& surface) { return crosses_itself(*model, surface, plan.segments); })) {

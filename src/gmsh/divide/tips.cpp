@@ -23,6 +23,8 @@ constexpr double kWanted = 17;
 constexpr double kLongest = 3;
 /// Of a curve, from one or from both of its ends: there is at least one segment besides.
 constexpr double kMostOfCurve = 0.6, kMostOfBoth = 0.8;
+/// A remainder longer than this share of a segment becomes one more, since Gmsh rounds up.
+constexpr double kRoundedDown = 0.25;
 /// By how much sizes fall off behind the first segment, per length.
 constexpr double kSlope = 0.8;
 /// Where the angle is wider, one segment more on a side leaves it wide enough.
@@ -96,7 +98,7 @@ void mark(DividedCurve& curve, FirstLengths first) {
     along += step;
   }
   const double sizes = in_sizes.back();
-  curve.segments = std::max(2, int(std::lround(sizes)));
+  curve.segments = std::max(2, int(std::ceil(sizes - kRoundedDown)));
   curve.finer = std::max(curve.segments + 1, int(std::lround(finer_in_size * sizes)));
   std::vector<double> parameters{curve.parameters.front()};
   std::size_t i = 1;

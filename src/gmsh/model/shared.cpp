@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -85,6 +86,16 @@ class SharedEdges {
     return keys;
   }
 
+  /// True if one line that ends there is a side of all of these surfaces.
+  bool have_line_at(Index row, const std::vector<std::uint32_t>& surfaces) const {
+    auto at = std::lower_bound(ends_of_lines_.begin(), ends_of_lines_.end(), End{row, surfaces.front(), 0});
+    for (; at != ends_of_lines_.end() && std::get<0>(*at) == row && std::get<1>(*at) == surfaces.front(); ++at)
+      if (std::all_of(surfaces.begin(), surfaces.end(),
+                      [&](std::uint32_t surface) { return is_end(row, surface, std::get<2>(*at)); }))
+        return true;
+    return false;
+  }
+
  private:
   struct Edge {
     std::size_t first, last;  ///< rows of `sides_`
@@ -115,16 +126,6 @@ class SharedEdges {
     return std::binary_search(ends_of_lines_.begin(), ends_of_lines_.end(), End{row, surface, line});
   }
 
-  /// True if one line that ends there is a side of all of them.
-  bool have_line_at(Index row, const std::vector<std::uint32_t>& surfaces) const {
-    auto at = std::lower_bound(ends_of_lines_.begin(), ends_of_lines_.end(), End{row, surfaces.front(), 0});
-    for (; at != ends_of_lines_.end() && std::get<0>(*at) == row && std::get<1>(*at) == surfaces.front(); ++at)
-      if (std::all_of(surfaces.begin(), surfaces.end(),
-                      [&](std::uint32_t surface) { return is_end(row, surface, std::get<2>(*at)); }))
-        return true;
-    return false;
-  }
-
   const std::vector<std::uint64_t>& lines_;
   std::vector<Side> sides_;  ///< sorted
   std::vector<Edge> edges_;
@@ -149,15 +150,7 @@ std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mes
   struct Element {
     std::array<Index, 4> rows;  // sorted; a triangle has kNone for the fourth
     std::uint32_t entity;
-    bool may_be_common;
     bool operator<(const Element& other) const { return std::tie(rows, entity) < std::tie(other.rows, other.entity); }
-  };
-  const std::vector<std::uint64_t> lines = find_lines(mesh);
-  const auto has_two_lines = [&](Corners corners) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      count += contains_key(lines, edge_key(corners[k], corners[(k + 1) % corners.size()]));
-    return corners.size() == 3 && count == 2;
   };
   std::vector<Element> elements;
   std::vector<std::size_t> others(mesh.entities.size(), 0);  // elements that no other surface has
@@ -165,7 +158,7 @@ std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mes
     ++others[e];
     const auto is_shared = [&](Index row) { return row != kNone && use.several[row]; };
     if (!std::all_of(corners.begin(), corners.end(), is_shared)) return;
-    Element element{{kNone, kNone, kNone, kNone}, e, has_two_lines(corners)};
+    Element element{{kNone, kNone, kNone, kNone}, e};
     std::copy(corners.begin(), corners.end(), element.rows.begin());
     std::sort(element.rows.begin(), element.rows.end());
     elements.push_back(element);
@@ -177,11 +170,20 @@ std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mes
   };
   for (std::size_t i = 0; i < elements.size(); ++i)
     if (is_common_with_next(i) || (i > 0 && is_common_with_next(i - 1))) --others[elements[i].entity];
+  const std::vector<std::uint64_t> lines = find_lines(mesh);
+  std::optional<SharedEdges> edges;
+  const auto only_happens_to_be_common = [&](const Element& a, const Element& b) {
+    if (a.rows.back() != kNone || others[a.entity] == 0 || others[b.entity] == 0) return false;
+    if (!edges) edges.emplace(mesh, use, lines);
+    return std::all_of(a.rows.begin(), a.rows.begin() + 3, [&](Index row) {
+      return edges->have_line_at(row, {a.entity, b.entity});
+    });
+  };
   std::map<std::uint32_t, CommonElement> found;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (!is_common_with_next(i)) continue;
     const Element &a = elements[i], &b = elements[i + 1];
-    if (a.may_be_common && others[a.entity] > 0 && others[b.entity] > 0) continue;
+    if (only_happens_to_be_common(a, b)) continue;
     found.try_emplace(a.entity, CommonElement{b.entity, a.rows[0]});
     found.try_emplace(b.entity, CommonElement{a.entity, a.rows[0]});
   }

@@ -31,7 +31,7 @@ struct CommonElement {
 };
 
 /// Surfaces that have an element in common with another: neither could be changed and still fit the other. A triangle
-/// with two sides on curves may be in both; but not all elements of a surface.
+/// whose corners are on curves between the two may happen to be in both; but not all elements of a surface.
 std::map<std::uint32_t, CommonElement> find_common_elements(const ModelMesh& mesh, const NodeUse& use);
 
 }  // namespace qmorph::adapter
