@@ -30,6 +30,12 @@ constexpr std::size_t kWorkToBegin = 120;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 
+/// With more elements turned over than this, the fault is not one of single places.
+constexpr std::size_t kFewTurned = 4;
+/// With more than this in a region that is not large, another try has failed as well, as good as always. Where parts
+/// have no chart, some elements in a thousand are turned over, so that large regions fail with fewer.
+constexpr std::size_t kManyTurned = 24;
+
 using Work = WindowResult (*)(const LaidOut& window, const Options& options, const Ground& ground, double allowed);
 
 /// Where a try has failed, by triangle of the region.
@@ -149,7 +155,7 @@ class Worker {
     std::optional<SurfaceMesh> widened;
     if (task_ == Task::convert) widened = with_wider_tips(mesh_, divided_->creases, background());
     const bool is_valid = improve_as_it_is();
-    if (!widened) return is_valid;
+    if (!widened || turned() > kFewTurned) return is_valid;
     SurfaceMesh narrow = std::exchange(mesh_, std::move(*widened));
     space::Faults faults = faults_;
     const Budget before = budget_;
@@ -389,7 +395,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
     } else {
       if (!first) first = worker.find_fault();
       fewest_turned = std::min(fewest_turned, worker.turned());
-      if (distrust.all) break;
+      const std::size_t most_turned = size > kSmall ? kFewTurned : kManyTurned;
+      if (distrust.all || (worker.turned() > most_turned && !has_more_for(budget, size))) break;
       if (!worker.learn(distrust)) distrust.all = true;
     }
     distrust.interfaces = true;
@@ -397,8 +404,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
   if (best.work && (best.doubtful == 0 || size > kFew)) return std::move(*best.work);
   // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have
   // one, if there are few such places.
-  constexpr std::size_t kMostTurned = 4;
-  const bool is_hopeful = task == Task::convert && (best.work || fewest_turned <= kMostTurned);
+  const bool is_hopeful = task == Task::convert && (best.work || fewest_turned <= kFewTurned);
   if (is_hopeful && size <= options.retry_triangles) {
     const Distrust nothing;
     for (const Options& variant : few_front_variants(options)) {

@@ -46,7 +46,7 @@ void Background::add_fans() {
 }
 
 void Background::find_clear_cosines() {
-  constexpr double kSmooth = 0.94;  // cosine of 20 degrees
+  constexpr double kSmooth = 0.94;                           // cosine of 20 degrees
   constexpr double kTogether = 80 * std::numbers::pi / 180;  // triangle to node and node to corner
   constexpr double kRough = 45 * std::numbers::pi / 180;
   std::vector<double> least(fan_normals_.size(), 1);

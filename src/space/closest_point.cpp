@@ -64,9 +64,9 @@ OnTriangle closest_on_triangle(const Vector3d& p, const Vector3d& a, const Vecto
     return {point, Vector3d(1 - v - w, v, w), (p - point).squaredNorm()};
   }
   const double clear = kClear * area2;
-  return closest_on_sides(p, {&a, &b, &c},
-                          {!is_needle && at_c > clear, !is_needle && area2 - at_b - at_c > clear,
-                           !is_needle && at_b > clear});
+  return closest_on_sides(
+      p, {&a, &b, &c},
+      {!is_needle && at_c > clear, !is_needle && area2 - at_b - at_c > clear, !is_needle && at_b > clear});
 }
 
 }  // namespace qmorph::space

@@ -56,7 +56,9 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
   constexpr std::size_t kWorkOfLook = 150;
   std::size_t looks = 0;
   const WholeSurface whole = region.whole();
-  const Background surface(region.points, region.region.triangles, barriers(region));
+  std::optional<const Background> parted;  // at creases
+  if (!region.creases.empty()) parted.emplace(region.points, region.region.triangles, barriers(region));
+  const Background& surface = parted ? *parted : *region.background;
   {
     MeshOnSurface view(mesh, creases, surface, whole, stretched);
     smooth(view, options);

@@ -179,6 +179,12 @@ double MeshOnSurface::sure_sine(Index f) const {
 }
 
 double MeshOnSurface::exact_sine(Index f) const {
+  if (exact_.empty()) exact_.assign(faces(), kUnknown);
+  if (exact_[f] == kUnknown) exact_[f] = look_closely(f);
+  return exact_[f];
+}
+
+double MeshOnSurface::look_closely(Index f) const {
   ++exact_looks_;
   const Face& face = mesh_.faces[f];
   const auto sine = [&](const auto& p) {
@@ -233,6 +239,7 @@ void MeshOnSurface::move(Index v, const Foot& foot) {
   mesh_.points[v] = foot.point;
   mesh_.on[v] = foot.triangle;
   normal_[v] = surface_.smooth_normal(foot.triangle, foot.weights);
+  forget_exact(v);
 }
 
 }  // namespace qmorph::space

@@ -77,7 +77,7 @@ class MeshOnSurface {
   double exact_sine(Index face) const;
   /// By the face's own normal: a solver judges an element by itself.
   double own_sine(Index face) const { return chart::own_sine(mesh_, mesh_.faces[face]); }
-  /// How often exact_sine() was asked for, which costs much more than anything else here.
+  /// How often exact_sine() had to look, which costs much more than anything else here.
   std::size_t exact_looks() const { return exact_looks_; }
   /// smallest_rise() by the same normals.
   double exact_rise(Index face) const;
@@ -96,12 +96,18 @@ class MeshOnSurface {
   Place place(Index v) const { return {mesh_.points[v], normal_[v], mesh_.on[v]}; }
   void move(Index v, const Place& place) {
     mesh_.points[v] = place.point, normal_[v] = place.normal, mesh_.on[v] = place.triangle;
+    forget_exact(v);
   }
 
  private:
   void cut(const std::vector<std::pair<Index, Index>>& creases);
   /// smallest_sine(), if looking closer is not needed.
   std::optional<double> clear_sine(Index face) const;
+  double look_closely(Index face) const;
+  /// Of the faces around a node that moves.
+  void forget_exact(Index v) {
+    if (!exact_.empty()) for_sides_around(v, [&](Index side) { exact_[side / 4] = kUnknown; });
+  }
   void find_places();
   Eigen::Vector3d centre(Index face) const;
   Eigen::Vector3d normal_of(Index face) const;
@@ -119,6 +125,8 @@ class MeshOnSurface {
   std::vector<char> is_free_;
   std::vector<char> is_on_crease_;  ///< by node
   std::vector<Eigen::Vector3d> normal_;
+  static constexpr double kUnknown = 2;  ///< no sine
+  mutable std::vector<double> exact_;    ///< exact_sine() by face, once it is asked for: most faces are asked for often
   mutable std::size_t exact_looks_ = 0;
 };
 

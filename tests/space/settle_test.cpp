@@ -53,6 +53,28 @@ double mean_distance_of_centres(const MeshOnSurface& mesh) {
   return sum / mesh.faces();
 }
 
+TEST_CASE("mesh on a surface: a sine is looked up once, and anew where a node has moved") {
+  const GridSurface grid{.across = 6, .along = 6, .jitter = 0.1};
+  Sheet sheet(grid, bowl(grid, 0.5, 1));
+  MeshOnSurface view = sheet.view();
+  const auto sum = [&] {
+    double all = 0;
+    for (Index f = 0; f < view.faces(); ++f) all += view.exact_sine(f);
+    return all;
+  };
+  const double before = sum();
+  CHECK(sum() == before);
+  CHECK(view.exact_looks() == view.faces());
+  Index v = 0;
+  while (!view.is_free(v)) ++v;
+  const MeshOnSurface::Place home = view.place(v);
+  view.move(v, view.foot(v, home.point + Vector3d(0.05, 0.02, 0)));
+  CHECK(sum() != before);
+  CHECK(view.exact_looks() == view.faces() + 4);
+  view.move(v, home);
+  CHECK(sum() == before);
+}
+
 TEST_CASE("settle: centres come nearer to the surface, nodes stay on it and good quads stay good") {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const GridSurface grid{.across = 12, .along = 12, .jitter = 0.1};

@@ -31,6 +31,22 @@ TEST_CASE("triangle tree: finds what looking at every triangle finds") {
   }
 }
 
+TEST_CASE("the closest point of a triangle is its foot, or on the nearest side, whatever its shape") {
+  Rng rng(3);
+  for (const double height : {1.0, 0.05, 1e-3, 1e-6, 0.0})
+    for (int round = 0; round < 200; ++round) {
+      const Vector3d a(0, 0, 0), b(1, 0, 0), c(rng.between(-1, 2), height * rng.between(0.5, 1), 0);
+      const Vector3d p(rng.between(-2, 3), rng.between(-1, 1), rng.between(-1, 1));
+      double best = std::numeric_limits<double>::infinity();
+      for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        best = std::min(best, (q + space::closest_on_segment(p, q, r) * (r - q) - p).norm());
+      const Vector3d foot(p.x(), p.y(), 0);
+      const auto is_left = [&](const Vector3d& q, const Vector3d& r) { return (r - q).cross(foot - q).z() > 0; };
+      if (is_left(a, b) && is_left(b, c) && is_left(c, a)) best = std::abs(p.z());
+      CHECK(std::sqrt(space::closest_on_triangle(p, a, b, c).distance2) == doctest::Approx(best).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("triangle tree: no triangles at all, and triangles in one place") {
   const std::vector<Vector3d> points{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
   CHECK(TriangleTree(points, {}).closest({0, 0, 0}).triangle == kNone);

@@ -145,7 +145,7 @@ std::vector<Index> bent_quads(const ModelMesh& mesh, const EntityMesh& before, c
                               const space::Result& result, std::size_t kept) {
   const auto corners = corners_alone(result, kept);
   const int order = order_of(before);
-  if (corners.empty() || (order == 1 && order_to_come() == 1)) return {};
+  if (corners.empty()) return {};
   std::optional<CurvedElements> elements;
   if (order > 1) elements = curve_result(mesh, before, part, result.mesh());
   std::vector<Index> bent;
@@ -210,6 +210,7 @@ QuadMesh best_pillow(const SurfacePart& part, const space::Result& result, const
 
 void pillow_bent_quads(const ModelMesh& mesh, ConvertedSurface& surface) {
   const EntityMesh& before = mesh.entities[surface.surface.entity];
+  if (order_of(before) == 1 && order_to_come() == 1) return;
   for (std::size_t p = 0; p < surface.results.size(); ++p) {
     const SurfacePart& part = surface.surface.parts[p];
     const std::size_t kept = surface.surface.quads_may_go ? 0 : part.patch.quads.size();
