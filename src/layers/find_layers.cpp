@@ -153,6 +153,7 @@ std::optional<Layers> find_layers(const Patch& patch, const std::vector<bool>& w
   const std::vector<Column> columns = take_columns_on_walls(cells);
   take_fans(cells, columns);
   take_strips(cells, thin);
+  go_on_along_walls(cells);
   if (cells.size() == 0) return std::nullopt;
   const Parts regions = all_parts(sides);
   drop_broken_rows(cells, regions);

@@ -43,6 +43,24 @@ class FirstRow {
     return std::move(columns_);
   }
 
+  /// Those that go on along the wall from cells that stand there already.
+  std::vector<Column> take_beside() {
+    std::vector<bool> stood(columns_.size(), false);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Index wall = columns_[i].base, cell = cells_.owner(wall / 3);
+      if (cell == kNone || (cells_[cell].base != wall && cells_[cell].top != wall)) continue;
+      columns_[i].cells.push_back(cell);
+      columns_[i].height = cells_[cell].height;
+      started_.push_back(wall);
+      stood[i] = true;
+    }
+    go_on_along_walls();
+    std::vector<Column> taken;
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (!stood[i] && !columns_[i].cells.empty()) taken.push_back(std::move(columns_[i]));
+    return taken;
+  }
+
  private:
   bool start(Index i, double least_aspect, double most_misfit) {
     Column& column = columns_[i];
@@ -121,6 +139,11 @@ std::vector<Column> take_columns_on_walls(Cells& cells) {
   std::vector<Column> columns = FirstRow(cells).take();
   march(cells, columns);
   return columns;
+}
+
+void go_on_along_walls(Cells& cells) {
+  std::vector<Column> columns = FirstRow(cells).take_beside();
+  march(cells, columns);
 }
 
 void march(Cells& cells, std::vector<Column>& columns) {

@@ -14,6 +14,9 @@ inline constexpr std::size_t kRow = 3;
 /// Takes columns on walls, where cells are much longer than high; they go up as far as they look like layers.
 std::vector<Column> take_columns_on_walls(Cells& cells);
 
+/// Takes columns on walls beside cells that were found otherwise, and have grown up to the wall.
+void go_on_along_walls(Cells& cells);
+
 /// Lets columns grow side by side, a row at a time.
 void march(Cells& cells, std::vector<Column>& columns);
 

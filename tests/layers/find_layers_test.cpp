@@ -149,6 +149,22 @@ TEST_CASE("layers: round a sharp corner without a fan, the last cells of both wa
     CHECK(whole_cells(grid(8, 6, place, diagonals), 8, 6) == 48);
 }
 
+TEST_CASE("layers: rows of cells that are too short to begin a layer go on round the nose of a wall") {
+  // 2.3 times as long as high at the wall, and a little less in each row.
+  constexpr double kHalf = 52 * std::numbers::pi / 180;  // of the wall's angle
+  const auto place = [](Index i, Index j) {
+    const double along = std::abs(double(i) - 12), side = i < 12 ? 1 : -1;
+    const double height = (std::pow(1.05, j) - 1) / 0.05 / 2.3;
+    if (i == 12) return Vector3d(-height / std::sin(kHalf), 0, 0);
+    return Vector3d(along * std::cos(kHalf) - height * std::sin(kHalf),
+                    side * (along * std::sin(kHalf) + height * std::cos(kHalf)), 0);
+  };
+  for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating}) {
+    CAPTURE(int(diagonals));
+    CHECK(whole_cells(grid(24, 5, place, diagonals), 24, 5) == 120);
+  }
+}
+
 TEST_CASE("layers: a surface in space has its layers, flat or not") {
   const auto place = [](Index i, Index j) { return Vector3d(std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * j); };
   CHECK(whole_cells(grid(40, 8, place), 40, 8) == 320);
