@@ -438,17 +438,29 @@ class RegionConverter {
     return {};
   }
 
-  /// Raises the corners that are not good enough, or as many as asked for if the others do not lose more by it.
+  /// Raises the corners that are not good enough, or as many as asked for if the others do not lose more by it; again
+  /// where quads are still poor, since each time only a share of all elements counts as bad.
   void raise_corners(kernel::Mesh& mesh, const SmoothingOptions& smoothing) const {
+    constexpr int kMostTimes = 3;
     if (smoothing.method != SmoothingMethod::shape_energy) return;
+    for (int time = 0; time < kMostTimes; ++time)
+      if (!raise_corners_once(mesh, smoothing) || !cleanup::has_poor_quads(mesh)) return;
+  }
+
+  /// Whether the mesh is worth more for it; if not, it stays.
+  bool raise_corners_once(kernel::Mesh& mesh, const SmoothingOptions& smoothing) const {
     const kernel::Mesh start = mesh;
+    bool is_raised = false;
     for (double good : {judge(mesh).good_enough, smoothing.good_quality}) {
       SmoothingOptions options = smoothing;
       options.good_quality = std::min(good, smoothing.good_quality);
       kernel::Mesh raised = start;
       smoothing::raise_worst_corners(raised, options);
-      if (judge(raised).sum() > judge(mesh).sum()) mesh = std::move(raised);
+      if (judge(raised).sum() <= judge(mesh).sum()) continue;
+      mesh = std::move(raised);
+      is_raised = true;
     }
+    return is_raised;
   }
 
   const Region& region_;

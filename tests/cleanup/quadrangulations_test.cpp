@@ -48,7 +48,8 @@ Mesh drawn_in_polygon(int n, const Quadrangulation& quadrangulation) {
 
 TEST_CASE("quadrangulations: without nodes inside there are as many as diagonals allow, each another") {
   // (3 q)! / (q! (2 q + 1)!) for q quads, Fuss and Catalan.
-  for (const auto& [n, count] : {std::pair{4, 1}, {6, 3}, {8, 12}, {10, 55}}) {
+  for (const auto& known : {std::pair{4, 1}, {6, 3}, {8, 12}, {10, 55}}) {
+    const int n = known.first, count = known.second;
     CAPTURE(n);
     const auto found = all_of(n, 0);
     CHECK(int(found.size()) == count);
