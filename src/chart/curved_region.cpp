@@ -81,16 +81,6 @@ void CurvedRegion::find_tips(double least) {
 }
 
 SurfaceMesh CurvedRegion::start() const {
-  SurfaceMesh mesh;
-  mesh.points = points;
-  mesh.on.assign(points.size(), kNone);
-  mesh.fixed.assign(points.size(), 0);
-  mesh.node = region.node;
-  for (Index v : region.fixed) mesh.fixed[v] = 1;
-  for (Index v : tips) mesh.fixed[v] = 1;
-  for (Index t = 0; t < region.triangles.size(); ++t)
-    for (Index v : region.triangles[t]) mesh.on[v] = t;
-
   // The halves of a quad are rows that follow one another. They are in two regions where a constraint runs along the
   // diagonal, and then they stay halves.
   std::vector<std::pair<Index, Index>> halves;  // row, triangle
@@ -104,6 +94,21 @@ SurfaceMesh CurvedRegion::start() const {
     if ((row - first_half) % 2 != 0 || next_row != row + 1 || region.open[3 * t + 2] || region.open[3 * next]) continue;
     other[t] = next, other[next] = t;
   }
+  return joined(other);
+}
+
+SurfaceMesh CurvedRegion::triangles() const { return joined(std::vector<Index>(region.triangles.size(), kNone)); }
+
+SurfaceMesh CurvedRegion::joined(const std::vector<Index>& other) const {
+  SurfaceMesh mesh;
+  mesh.points = points;
+  mesh.on.assign(points.size(), kNone);
+  mesh.fixed.assign(points.size(), 0);
+  mesh.node = region.node;
+  for (Index v : region.fixed) mesh.fixed[v] = 1;
+  for (Index v : tips) mesh.fixed[v] = 1;
+  for (Index t = 0; t < region.triangles.size(); ++t)
+    for (Index v : region.triangles[t]) mesh.on[v] = t;
   for (Index t = 0; t < region.triangles.size(); ++t) {
     const auto& [a, b, c] = region.triangles[t];
     const bool is_second = other[t] != kNone && region.row[other[t]] < region.row[t];

@@ -32,6 +32,8 @@ struct CurvedRegion {
   /// Its elements, before anything is done to them. Triangles of the patch from row `first_half` on are halves of
   /// quads, two and two.
   SurfaceMesh start() const;
+  /// The surface itself: a face for each triangle.
+  SurfaceMesh triangles() const;
   std::size_t first_half = std::size_t(-1);
   std::shared_ptr<const WholePatch> beside;  ///< null if no quads lie beside it
   /// The surface that it is a part of, with the quads of the patch that stay.
@@ -43,6 +45,8 @@ struct CurvedRegion {
   const stretch::MetricField* stretch() const { return stretch_.get(); }
 
  private:
+  /// \param other the other half of the quad that a triangle is a half of, or kNone
+  SurfaceMesh joined(const std::vector<Index>& other) const;
   void drop_creases_of_facets();
   void find_tips(double least);
   void find_stretch();

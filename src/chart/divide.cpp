@@ -143,15 +143,16 @@ class Dividing {
 
   void set_cut(Index side, bool cut) { division_.is_cut[side] = division_.is_cut[opposite_[side]] = cut; }
 
-  /// Accepts a part that lies flat, but for tips that have to be cut first.
+  /// Accepts a part that lies flat, but for tips that have to be cut first. Where a tip is narrow between cuts on every
+  /// way from it, there is nothing left to cut.
   std::vector<std::vector<Index>> finish(const std::vector<Index>& faces, std::unique_ptr<LaidOut> part) {
-    std::vector<Index> path;
-    if (part) path = path_from_narrow_tip(part->piece, part->chart.flat());
-    if (path.empty()) {
+    std::vector<Index> sides;
+    if (part) sides = sides_along(part->piece, path_from_narrow_tip(part->piece, part->chart.flat()));
+    if (sides.empty()) {
       accept(faces, std::move(part));
       return {};
     }
-    for (Index side : sides_along(part->piece, path)) set_cut(side, true);
+    for (Index side : sides) set_cut(side, true);
     return components(faces, opposite_, division_.is_cut);
   }
 

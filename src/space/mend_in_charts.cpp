@@ -148,7 +148,7 @@ class Mender {
          const Background& surface, const SmoothingOptions& options)
       : mesh_(std::move(mesh)),
         creases_(creases),
-        triangles_(region.start()),
+        triangles_(region.triangles()),
         surface_(surface),
         whole_(region.whole()),
         options_(options) {

@@ -59,7 +59,12 @@ struct Place {
 
 /// Starts the program, and ends it by a signal after a while. \return as waitpid() does
 int end_after(const Place& place, int signal, std::chrono::microseconds delay) {
+  ::sigset_t one, before;  // the signal waits until the child no longer has the handler of the tests
+  ::sigemptyset(&one), ::sigaddset(&one, signal);
+  ::sigprocmask(SIG_BLOCK, &one, &before);
   const ::pid_t child = ::fork();
+  if (child == 0) ::signal(signal, SIG_DFL);
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
   if (child == 0) {
     const std::string in = place.directory / "in.geo", out = place.directory / "out.msh";
     ::setenv("TMPDIR", (place.directory / "tmp").c_str(), 1);

@@ -171,6 +171,25 @@ TEST_CASE("improve: a node that was pulled over its neighbours goes back") {
   CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.99);
 }
 
+TEST_CASE("improve: on a curved surface nodes that have changed places go back, or it is said where they cannot") {
+  const auto bent = [](Index moved) {  // node (3, 3) and another one have changed places
+    Patch patch = grid(8, 6);
+    for (auto& p : patch.points) p = {5 * std::sin(p.x() / 5), p.y(), 5 * std::cos(p.x() / 5)};
+    std::swap(patch.points[3 + 3 * 9], patch.points[moved]);
+    return patch;
+  };
+  const QuadMesh mesh = improve(bent(4 + 3 * 9)).mesh;
+  CHECK(mesh.quads.size() == 48);
+  CHECK(mesh.triangles.empty());
+  CHECK(qmorph::measure(mesh).scaled_jacobian_min > 0.5);
+  try {
+    const QuadMesh other = improve(bent(5 + 4 * 9)).mesh;
+    CHECK(qmorph::measure(other).scaled_jacobian_min > 0);
+  } catch (const qmorph::SurfaceError& error) {
+    CHECK(error.details().place.has_value());
+  }
+}
+
 TEST_CASE("improve: a quad whose corners cannot move is cut and built anew") {
   // A bar with a notch from below to node 5. All nodes are on the boundary.
   //   4---3---2

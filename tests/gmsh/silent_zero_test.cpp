@@ -137,6 +137,13 @@ TEST_CASE("silent zero: parts side by side are warned of only if they share no n
   CHECK(!mentions(run_qmorph({directory / "in.msh", "-o", directory / "out.msh"}).err, "warning"));
 }
 
+TEST_CASE("silent zero: triangles that share a node only do not lie on top of one another, whatever their numbers") {
+  const TemporaryDirectory directory;
+  write_file(directory / "in.msh",
+             msh22({{0, 0, 0}, {4, 1, 0}, {2, 2, 0}, {3, 6, 0}, {0.5, 3, 0}}, {"2 2 0 1 1 2 3", "2 2 0 1 1 4 5"}));
+  CHECK(!mentions(run_qmorph({directory / "in.msh", "-o", directory / "out.msh"}).err, "lies over"));
+}
+
 TEST_CASE("silent zero: a STEP file whose faces were not fused") {
   const TemporaryDirectory directory;
   {
