@@ -285,7 +285,7 @@ TEST_CASE("curved: a division that was made for another front gives the same as 
   REQUIRE(regions.size() == 1);
   chart::SharedDivision shared, other;
   const auto points = [&](chart::SharedDivision& division) {
-    Budget budget(budget_of_call(double(patch.triangles.size())));
+    Budget budget(budget_of_call(double(patch.triangles.size()), CallKind::curved));
     const auto work = chart::try_region(regions[0], Options(), budget, chart::Task::convert, division);
     REQUIRE(work);
     return work->mesh.points;
