@@ -8,6 +8,7 @@
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"
+#include "space/faults.hpp"
 #include "space/reference.hpp"
 
 namespace qmorph::chart {
@@ -91,8 +92,17 @@ SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& b
   Patch halves = patch;
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
-  const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
-  return work_on_curved(halves, regions, options, Task::improve, budget, nullptr);
+  auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
+  const std::vector<char> bad = space::unsure_ground(patch);
+  for (CurvedRegion& region : regions)
+    for (Index row : region.region.row) region.unsure.push_back(!bad.empty() && bad[row]);
+  SurfaceWork work = work_on_curved(halves, regions, options, Task::improve, budget, nullptr);
+  if (!patch.quads.empty())
+    if (const auto defect = space::find_turned(patch, work.conversion.mesh))
+      throw SurfaceError(defect->what + ", and no place was found for its nodes where it is not; mesh the surface anew "
+                                        "or repair it",
+                         {.kind = ErrorKind::bad_element, .place = defect->place});
+  return work;
 }
 
 }  // namespace qmorph::chart
