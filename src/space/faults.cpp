@@ -108,7 +108,8 @@ std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after) {
   const Neighbourhood elements(after.points, after.triangles, after.quads, constraints);
   std::vector<Suspect> suspects;
   for (Index e = 0; e < elements.elements(); ++e)
-    if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0) suspects.push_back({e, is_bad});
+    if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0)
+      suspects.push_back({e, is_bad});
   return suspects;
 }
 
@@ -131,12 +132,30 @@ std::optional<Defect> find_turned(const Result& result, const std::vector<Suspec
   return {};
 }
 
+/// Whether bad elements of the patch, which were free to change, are part of what says which way is up for an element.
+template <std::size_t N>
+bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
+  if (unsure.empty()) return false;
+  Vector3d centre = Vector3d::Zero();
+  for (const Vector3d& corner : p) centre += corner / double(N);
+  const auto is_unsure = [&](const Vector3d& point) {
+    const Index t = result.normals().closest(point, result.triangle(element)).triangle;
+    bool found = unsure[t];
+    for (int i = 0; i < 3; ++i)
+      if (const Index other = result.surface().neighbour(t, i); other != kNone) found = found || unsure[other];
+    return found;
+  };
+  return is_unsure(centre) || std::any_of(p.begin(), p.end(), [&](const Vector3d& corner) {
+           return is_unsure(corner + 0.25 * (centre - corner));
+         });
+}
+
 template <std::size_t N>
 std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes,
                               std::span<const char> unsure, double beside) {
   const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
   const std::size_t corner = bad_corner(result.sines(element, p, nodes));
-  if (corner < N && !is_folded_under(result, element, p, unsure))
+  if (corner < N && !is_folded_under(result, element, p, unsure) && !is_on_unsure_ground(result, element, p, unsure))
     return defect_at("an element has a corner that is not convex", p[corner]);
   for (std::size_t i = 0; i < N; ++i) {
     const Index row = result.mesh().source[nodes[i]];
@@ -179,18 +198,25 @@ template bool is_folded_under(const Background&, const SurfaceNormals&, const Co
 template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<4>&, Index,
                               std::span<const char>);
 
-std::vector<char> unsure_ground(const Patch& patch) {
-  if (patch.quads.empty()) return {};
+std::vector<char> bad_elements(const Patch& patch) {
   const Neighbourhood elements(patch.points, patch.triangles, patch.quads, patch.constraints);
   const Reference reference(patch);
   const auto triangles = Index(patch.triangles.size());
-  std::vector<char> unsure;
-  for (Index e = 0; e < elements.elements(); ++e) {
-    bool is_unsure = elements.has_bad_corner(e) || elements.folds(e) > 1;  // a surface that is folded is so at one side
-    if (const Index half = triangles + 2 * (e - triangles); e >= triangles)
-      is_unsure = is_unsure || are_folded(reference.surface, half, half + 1);
-    unsure.insert(unsure.end(), e < triangles ? 1 : 2, char(is_unsure));
+  std::vector<char> bad(elements.elements(), 0);
+  for (Index e = 0; e < bad.size(); ++e) {
+    bad[e] = elements.has_bad_corner(e) || elements.folds(e) > 1;  // a surface that is folded is so at one side
+    if (const Index half = triangles + 2 * (e - triangles);
+        e >= triangles && are_folded(reference.surface, half, half + 1))
+      bad[e] = 1;
   }
+  return bad;
+}
+
+std::vector<char> unsure_ground(const Patch& patch) {
+  if (patch.quads.empty()) return {};
+  std::vector<char> unsure;
+  for (const char bad : bad_elements(patch))
+    unsure.insert(unsure.end(), unsure.size() < patch.triangles.size() ? 1 : 2, bad);
   return unsure;
 }
 
@@ -204,7 +230,7 @@ std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, st
   const Result result(before, after);
   std::vector<char> unsure = unsure_ground(before);
   const bool are_free = kept == 0 && !before.quads.empty();
-  if (!are_free) std::fill_n(unsure.begin(), std::min(unsure.size(), before.triangles.size()), 0);
+  if (!are_free) unsure.clear();
   const Index triangles = Index(after.triangles.size());
   for (Index t = 0; t < triangles; ++t)
     if (auto defect = look_at(result, t, after.triangles[t], unsure, beside)) return defect;

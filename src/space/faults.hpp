@@ -19,9 +19,12 @@ template <std::size_t N>
 bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint,
                      std::span<const char> unsure = {});
 
-/// By triangle of Reference::with_halves(patch): whether it is, or is half of, an element that is turned over among its
-/// neighbours, crosses itself, or is folded along its diagonal. Where elements are free to change that is a fault of
-/// the mesh, and no fold of the surface that it stands for. Empty without quads.
+/// By element of a curved patch, triangles first: whether it is turned over among its neighbours, crosses itself, or is
+/// folded along its diagonal.
+std::vector<char> bad_elements(const Patch& patch);
+
+/// By triangle of Reference::with_halves(patch): whether it is, or is half of, one of bad_elements(). Where elements
+/// are free to change that is a fault of the mesh, and no fold of the surface that it stands for. Empty without quads.
 std::vector<char> unsure_ground(const Patch& patch);
 
 /// An element that is turned over among its neighbours or lies back over one, where the patch itself is not folded: the

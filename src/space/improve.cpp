@@ -31,8 +31,9 @@ class Folds {
     const chart::Face& face = mesh_.mesh().faces[f];
     const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh_.point(face[i]); };
     const Index hint = mesh_.mesh().near[f];
-    return chart::degree(face) == 4 ? is_folded_under<4>(surface_, *normals_, {at(0), at(1), at(2), at(3)}, hint, unsure_)
-                                    : is_folded_under<3>(surface_, *normals_, {at(0), at(1), at(2)}, hint, unsure_);
+    return chart::degree(face) == 4
+               ? is_folded_under<4>(surface_, *normals_, {at(0), at(1), at(2), at(3)}, hint, unsure_)
+               : is_folded_under<3>(surface_, *normals_, {at(0), at(1), at(2)}, hint, unsure_);
   }
 
  private:
@@ -70,7 +71,8 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
     raise_bent(view, options);
     const bool is_valid = find_poor(view, 0).empty();
     looks += view.exact_looks();
-    if (Folds folds(view, surface, region.unsure); is_valid) return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
+    if (Folds folds(view, surface, region.unsure); is_valid)
+      return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
   }
   Faults faults;
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options, faults.work);
