@@ -9,7 +9,6 @@
 #include "geometry/describe.hpp"
 #include "geometry/predicates.hpp"
 #include "space/mesh_normals.hpp"
-#include "space/result.hpp"
 
 namespace qmorph::space {
 namespace {
@@ -132,24 +131,6 @@ std::optional<Defect> find_turned(const Result& result, const std::vector<Suspec
   return {};
 }
 
-/// Whether bad elements of the patch, which were free to change, are part of what says which way is up for an element.
-template <std::size_t N>
-bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
-  if (unsure.empty()) return false;
-  Vector3d centre = Vector3d::Zero();
-  for (const Vector3d& corner : p) centre += corner / double(N);
-  const auto is_unsure = [&](const Vector3d& point) {
-    const Index t = result.normals().closest(point, result.triangle(element)).triangle;
-    bool found = unsure[t];
-    for (int i = 0; i < 3; ++i)
-      if (const Index other = result.surface().neighbour(t, i); other != kNone) found = found || unsure[other];
-    return found;
-  };
-  return is_unsure(centre) || std::any_of(p.begin(), p.end(), [&](const Vector3d& corner) {
-           return is_unsure(corner + 0.25 * (centre - corner));
-         });
-}
-
 template <std::size_t N>
 std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes,
                               std::span<const char> unsure, double beside) {
@@ -197,6 +178,26 @@ template bool is_folded_under(const Background&, const SurfaceNormals&, const Co
                               std::span<const char>);
 template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<4>&, Index,
                               std::span<const char>);
+
+template <std::size_t N>
+bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
+  if (unsure.empty()) return false;
+  Vector3d centre = Vector3d::Zero();
+  for (const Vector3d& corner : p) centre += corner / double(N);
+  const auto is_unsure = [&](const Vector3d& point) {
+    const Index t = result.normals().closest(point, result.triangle(element)).triangle;
+    bool found = unsure[t];
+    for (int i = 0; i < 3; ++i)
+      if (const Index other = result.surface().neighbour(t, i); other != kNone) found = found || unsure[other];
+    return found;
+  };
+  return is_unsure(centre) || std::any_of(p.begin(), p.end(), [&](const Vector3d& corner) {
+           return is_unsure(corner + 0.25 * (centre - corner));
+         });
+}
+
+template bool is_on_unsure_ground(const Result&, Index, const Corners<3>&, std::span<const char>);
+template bool is_on_unsure_ground(const Result&, Index, const Corners<4>&, std::span<const char>);
 
 std::vector<char> bad_elements(const Patch& patch) {
   const Neighbourhood elements(patch.points, patch.triangles, patch.quads, patch.constraints);

@@ -8,6 +8,7 @@
 
 #include "qmorph/check.hpp"
 #include "qmorph/patch.hpp"
+#include "space/result.hpp"
 #include "space/surface_normals.hpp"
 
 namespace qmorph::space {
@@ -26,6 +27,10 @@ std::vector<char> bad_elements(const Patch& patch);
 /// By triangle of Reference::with_halves(patch): whether it is, or is half of, one of bad_elements(). Where elements
 /// are free to change that is a fault of the mesh, and no fold of the surface that it stands for. Empty without quads.
 std::vector<char> unsure_ground(const Patch& patch);
+
+/// Whether such triangles are part of what says which way is up for an element of a result.
+template <std::size_t N>
+bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure);
 
 /// An element that is turned over among its neighbours or lies back over one, where the patch itself is not folded: the
 /// surface's normals cannot tell where the patch has such elements itself, and its quads were free to change.
