@@ -285,7 +285,7 @@ TEST_CASE("curved: a division that was made for another front gives the same as 
   REQUIRE(regions.size() == 1);
   chart::SharedDivision shared, other;
   const auto points = [&](chart::SharedDivision& division) {
-    Budget budget(budget_of_call(double(patch.triangles.size())));
+    Budget budget(budget_of_call(double(patch.triangles.size()), CallKind::curved));
     const auto work = chart::try_region(regions[0], Options(), budget, chart::Task::convert, division);
     REQUIRE(work);
     return work->mesh.points;
@@ -296,19 +296,6 @@ TEST_CASE("curved: a division that was made for another front gives the same as 
   CHECK(points(shared) == first);
   CHECK(shared == made);
   CHECK(points(other) == first);
-}
-
-TEST_CASE("curved: where much is turned over and nothing is left of the budget, one try is all") {
-  Rng rng(5);
-  Patch patch = plate(10, 10);
-  for (Vector3d& p : patch.points) p.z() += rng.between(-2, 2);
-  const auto regions = chart::curved_regions(patch, 3.1);
-  REQUIRE(regions.size() == 1);
-  chart::SharedDivision shared;
-  Budget one(0), all(0);
-  CHECK_FALSE(chart::try_region(regions[0], Options(), one, chart::Task::convert, shared));
-  CHECK_THROWS_AS(chart::work_on_region(regions[0], Options(), all, chart::Task::convert, shared), SurfaceError);
-  CHECK(all.spent() < 1.1 * one.spent());
 }
 
 TEST_CASE("curved: what has no two sides is refused by name") {
