@@ -9,6 +9,7 @@
 #include "geometry/describe.hpp"
 #include "geometry/predicates.hpp"
 #include "space/mesh_normals.hpp"
+#include "space/triangle_tree.hpp"
 
 namespace qmorph::space {
 namespace {
@@ -131,18 +132,33 @@ std::optional<Defect> find_turned(const Result& result, const std::vector<Suspec
   return {};
 }
 
+/// What an element is held against.
+struct Ground {
+  const Result& result;
+  std::span<const char> unsure;
+  double beside;
+  const TriangleTree* other_halves = nullptr;  ///< Reference::other_halves() of quads that were free to change
+};
+
+bool is_beside(const Ground& ground, Index element, Index node, double length2) {
+  const Result& result = ground.result;
+  const double most = ground.beside * ground.beside * length2;
+  if (result.foot(element, node).distance2 <= most) return false;
+  return !ground.other_halves || !(ground.other_halves->closest(result.mesh().points[node]).distance2 <= most);
+}
+
 template <std::size_t N>
-std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes,
-                              std::span<const char> unsure, double beside) {
+std::optional<Defect> look_at(const Ground& ground, Index element, const std::array<Index, N>& nodes) {
+  const Result& result = ground.result;
   const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
   const std::size_t corner = bad_corner(result.sines(element, p, nodes));
-  if (corner < N && !is_folded_under(result, element, p, unsure) && !is_on_unsure_ground(result, element, p, unsure))
+  if (corner < N && !is_folded_under(result, element, p, ground.unsure) &&
+      !is_on_unsure_ground(result, element, p, ground.unsure))
     return defect_at("an element has a corner that is not convex", p[corner]);
   for (std::size_t i = 0; i < N; ++i) {
     const Index row = result.mesh().source[nodes[i]];
     if (row != kNone && result.surface().point(row) == p[i]) continue;
-    const double length2 = (p[(i + 1) % N] - p[i]).squaredNorm();
-    if (!(result.foot(element, nodes[i]).distance2 <= beside * beside * length2))
+    if (is_beside(ground, element, nodes[i], (p[(i + 1) % N] - p[i]).squaredNorm()))
       return defect_at("a node has left the surface", p[i]);
   }
   return {};
@@ -232,11 +248,15 @@ std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, st
   std::vector<char> unsure = unsure_ground(before);
   const bool are_free = kept == 0 && !before.quads.empty();
   if (!are_free) unsure.clear();
+  Ground ground{result, unsure, beside};
+  const auto halves = are_free ? Reference::other_halves(before) : std::vector<Background::Triangle>();
+  std::optional<TriangleTree> other_halves;
+  if (!halves.empty()) ground.other_halves = &other_halves.emplace(before.points, halves);
   const Index triangles = Index(after.triangles.size());
   for (Index t = 0; t < triangles; ++t)
-    if (auto defect = look_at(result, t, after.triangles[t], unsure, beside)) return defect;
+    if (auto defect = look_at(ground, t, after.triangles[t])) return defect;
   for (Index q = Index(kept); q < after.quads.size(); ++q)
-    if (auto defect = look_at(result, triangles + q, after.quads[q], unsure, beside)) return defect;
+    if (auto defect = look_at(ground, triangles + q, after.quads[q])) return defect;
   if (are_free)
     if (auto defect = find_turned(result, find_suspects(before, after), unsure)) return defect;
   if (characteristic(before.points.size(), before.triangles, before.quads) !=

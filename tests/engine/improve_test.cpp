@@ -261,6 +261,9 @@ TEST_CASE("improve: on a dome nothing stays turned over where the input's own el
       const QuadMesh mesh = improve(patch).mesh;
       CHECK_FALSE(has_turned_over(mesh));
       CHECK_FALSE(qmorph::find_defect(patch, mesh, qmorph::InputQuads::free).has_value());
+      qmorph::QualityAccumulator quality;
+      quality.add(patch, mesh);
+      CHECK(quality.result().scaled_jacobian_min > 0);
     } catch (const qmorph::SurfaceError& error) {
       CHECK(error.details().place.has_value());
     }
@@ -279,6 +282,15 @@ TEST_CASE("improve: a quad that is turned over among others on a dome turns back
       CHECK(error.details().place.has_value());
     }
   }
+}
+
+TEST_CASE("improve: no node has left a surface whose quads are bent alike along both diagonals") {
+  Patch patch = grid(4, 7);
+  for (auto& p : patch.points) p.z() = 0.1 * ((p.x() - 2) * (p.x() - 2) - (p.y() - 3.5) * (p.y() - 3.5));
+  std::swap(patch.points[12], patch.points[13]);
+  const QuadMesh mesh = improve(patch).mesh;
+  const auto defect = qmorph::find_defect(patch, mesh, qmorph::InputQuads::free);
+  CHECK_MESSAGE(!defect, (defect ? defect->what : ""));
 }
 
 TEST_CASE("improve: a sharp edge between good quads is no fault") {
