@@ -24,7 +24,9 @@ enum class InputQuads { kept, free };
 /// What is wrong with the quads that were made of a patch: a boundary or constraint edge that is gone, a fixed node
 /// that has moved, elements that do not fit together, overlap, or have a corner that is not convex, a change of area;
 /// on a curved surface corners that are turned over (see QualityAccumulator), except where the surface itself is
-/// folded, nodes that lie off it, and holes or handles that appear or vanish. Empty if nothing is wrong. Cost: linear.
+/// folded, nodes that lie off it, and holes or handles that appear or vanish. Elements of the input that were free to
+/// change and are bad themselves make no fold; what is made there is judged by the elements around it. Empty if nothing
+/// is wrong. Cost: linear.
 /// \param beside how far from the triangles of a curved patch a node may be, in sides of an element
 QMORPH_API std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh,
                                              InputQuads quads = InputQuads::kept, double beside = 1e-6);

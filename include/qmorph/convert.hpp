@@ -43,9 +43,11 @@ QMORPH_API Conversion convert(const Patch& patch, const Options& options = {});
 /// valid or good elements.
 ///
 /// Quads that are not convex or turned over are untangled by moving their nodes, else cut into triangles that take
-/// part. Guarantees as convert() does, for every region of triangles and quads; `Patch::quads` are not kept. No region
-/// gets a smaller least or mean scaled Jacobian than it had, nor more quads under 0.2, but where its triangles could
-/// not go otherwise: `ConversionReport::worse_regions`.
+/// part. On a curved surface their nodes go to the middle of their neighbours first, since there is no other surface
+/// than theirs; folds that only bad elements of the input make excuse nothing in the result. Guarantees as convert()
+/// does, for every region of triangles and quads; `Patch::quads` are not kept. No region gets a smaller least or mean
+/// scaled Jacobian than it had, nor more quads under 0.2, but where its triangles could not go otherwise:
+/// `ConversionReport::worse_regions`.
 ///
 /// \throws SurfaceError as convert() does, and where an element that is turned over cannot be turned back by moving
 /// nodes.

@@ -86,7 +86,7 @@ class QMORPH_API QualityAccumulator {
 
   /// Adds what a surface was made into. On a curved surface a corner is turned over if it is against the normals of the
   /// input's triangles near it, and of the whole element's, and the scaled Jacobian is the least of the corner sines in
-  /// space.
+  /// space. Where quads of the input are bad themselves, the normals are those of the elements around.
   void add(const Patch& before, const QuadMesh& after);
 
   /// Adds the surfaces that another one has collected.

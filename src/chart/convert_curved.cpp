@@ -8,6 +8,8 @@
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"
+#include "space/faults.hpp"
+#include "space/put_right.hpp"
 #include "space/reference.hpp"
 
 namespace qmorph::chart {
@@ -87,12 +89,53 @@ SurfaceWork convert_curved(const Patch& patch, const Options& options, Budget& b
   return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert, budget, stuck);
 }
 
-SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& budget) {
+namespace {
+
+SurfaceWork improve_as_it_is(const Patch& patch, const Options& options, Budget& budget) {
   Patch halves = patch;
   if (!patch.quads.empty()) halves.triangles = space::Reference::with_halves(patch);
   halves.quads.clear();
-  const auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
+  auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
+  const std::vector<char> unsure = space::unsure_ground(patch);
+  for (CurvedRegion& region : regions)
+    for (Index row : region.region.row) region.unsure.push_back(!unsure.empty() && unsure[row]);
   return work_on_curved(halves, regions, options, Task::improve, budget, nullptr);
+}
+
+/// \throws SurfaceError for an element that is turned over
+void require_none_turned(const Patch& patch, const QuadMesh& mesh) {
+  if (patch.quads.empty()) return;
+  if (const auto defect = space::find_turned(patch, mesh))
+    throw SurfaceError(defect->what +
+                           ", and no place was found for its nodes where it is not; mesh the surface anew "
+                           "or repair it",
+                       {.kind = ErrorKind::bad_element, .place = defect->place});
+}
+
+/// Nothing if no element is bad that could be put right, or what comes of it is not good.
+std::optional<SurfaceWork> improve_put_right(const Patch& patch, const Options& options, Budget& budget) {
+  const std::optional<Patch> right = patch.quads.empty() ? std::nullopt : space::put_right(patch);
+  if (!right) return {};
+  try {
+    SurfaceWork work = improve_as_it_is(*right, options, budget);
+    QuadMesh& mesh = work.conversion.mesh;
+    require_none_turned(*right, mesh);
+    space::lay_onto(patch, mesh);
+    require_none_turned(patch, mesh);
+    if (!work.record.stages.empty()) work.record.stages.back() = mesh;
+    return work;
+  } catch (const SurfaceError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& budget) {
+  if (auto work = improve_put_right(patch, options, budget)) return std::move(*work);
+  SurfaceWork work = improve_as_it_is(patch, options, budget);
+  require_none_turned(patch, work.conversion.mesh);
+  return work;
 }
 
 }  // namespace qmorph::chart

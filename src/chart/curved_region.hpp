@@ -35,6 +35,7 @@ struct CurvedRegion {
   /// The surface itself: a face for each triangle.
   SurfaceMesh triangles() const;
   std::size_t first_half = std::size_t(-1);
+  std::vector<char> unsure;                  ///< by triangle: space::unsure_ground(); empty if none is
   std::shared_ptr<const WholePatch> beside;  ///< null if no quads lie beside it
   /// The surface that it is a part of, with the quads of the patch that stay.
   space::WholeSurface whole() const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/predicates.hpp"
+#include "space/faults.hpp"
 #include "space/mesh_normals.hpp"
 #include "space/result.hpp"
 
@@ -76,23 +77,34 @@ std::optional<Vector3d> plane_normal(const Patch& patch) {
   return normal;
 }
 
-/// Normals of the corners of elements in space, by the surface that they came from or else by the elements around.
+/// Normals of the corners of elements in space, by the surface that they came from, or by the elements around if there
+/// is none or its own elements are bad there.
 class Shapes::InSpace {
  public:
   explicit InSpace(const SurfaceElements& mesh)
       : sides_(mesh.points.size(), mesh.triangles, mesh.quads), by_mesh_(std::in_place, mesh.points, sides_) {}
 
-  InSpace(const Patch& before, const QuadMesh& after) : sides_(0, {}, {}), result_(std::in_place, before, after) {}
+  InSpace(const Patch& before, const QuadMesh& after)
+      : sides_(after.points.size(), after.triangles, after.quads),
+        result_(std::in_place, before, after),
+        unsure_(space::unsure_ground(before)) {
+    if (std::count(unsure_.begin(), unsure_.end(), 1) == 0)
+      unsure_.clear();
+    else
+      by_mesh_.emplace(after.points, sides_);
+  }
 
   template <std::size_t N>
   std::array<double, N> sines(Index element, const Corners<N>& p, const std::array<Index, N>& nodes) const {
-    return result_ ? result_->sines(element, p, nodes) : space::corner_sines(p, by_mesh_->of<N>(element));
+    const bool asks_mesh = !result_ || space::is_on_unsure_ground(*result_, element, p, unsure_);
+    return asks_mesh ? space::corner_sines(p, by_mesh_->of<N>(element)) : result_->sines(element, p, nodes);
   }
 
  private:
   space::ElementSides sides_;
   std::optional<space::MeshNormals> by_mesh_;
   std::optional<space::Result> result_;
+  std::vector<char> unsure_;  ///< space::unsure_ground(), if any is
 };
 
 Shapes::Shapes(const SurfaceElements& mesh, const Vector3d& normal) : mesh_(mesh), normal_(normal) {}

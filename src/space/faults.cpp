@@ -9,7 +9,7 @@
 #include "geometry/describe.hpp"
 #include "geometry/predicates.hpp"
 #include "space/mesh_normals.hpp"
-#include "space/result.hpp"
+#include "space/triangle_tree.hpp"
 
 namespace qmorph::space {
 namespace {
@@ -50,34 +50,125 @@ std::size_t bad_corner(const std::array<double, N>& sines) {
   return *least > kLeastSine<N> ? N : std::size_t(least - sines.begin());
 }
 
+constexpr double kFold = -0.8;  ///< cosine between normals: less than 37 degrees are left between the elements
+
+/// Joined triangles of which one lies back over the other, or has no normal. Where a thin tube has few triangles around
+/// they turn by a right angle and more, and elements that are not turned over can be found all the same.
+bool are_folded(const Background& surface, Index t, Index other) {
+  const Vector3d &a = surface.normal(t), &b = surface.normal(other);
+  return a.isZero() || b.isZero() || a.dot(b) < kFold;
+}
+
+/// Elements among those around them, which say whether one is good.
+class Neighbourhood {
+ public:
+  /// Arrays must outlive it.
+  Neighbourhood(std::span<const Vector3d> points, std::span<const std::array<Index, 3>> triangles,
+                std::span<const std::array<Index, 4>> quads, std::span<const std::array<Index, 2>> barriers)
+      : points_(points),
+        triangles_(triangles),
+        quads_(quads),
+        sides_(points.size(), triangles, quads, barriers),
+        normals_(points, sides_) {}
+
+  Index elements() const { return sides_.elements(); }
+  /// Corner of a quad that is bad, or 4.
+  std::size_t bad_corner_of_quad(Index q) const {
+    return bad_corner(corner_sines(corners_of<4>(points_, quads_[q]), normals_.of<4>(Index(triangles_.size()) + q)));
+  }
+  /// It is turned over, or has a corner that is not convex.
+  bool has_bad_corner(Index element) const {
+    if (!sides_.is_triangle(element)) return bad_corner_of_quad(element - Index(triangles_.size())) < 4;
+    return bad_corner(corner_sines(corners_of<3>(points_, triangles_[element]), normals_.of<3>(element))) < 3;
+  }
+  /// How many neighbours it lies back over.
+  int folds(Index element) const {
+    int count = 0;
+    for (Index side = 4 * element; side < 4 * element + sides_.degree(element); ++side)
+      if (const Index other = sides_.opposite(side); other != kNone)
+        count += normals_.own(element).dot(normals_.own(other / 4)) < kFold;
+    return count;
+  }
+
+ private:
+  std::span<const Vector3d> points_;
+  std::span<const std::array<Index, 3>> triangles_;
+  std::span<const std::array<Index, 4>> quads_;
+  ElementSides sides_;
+  MeshNormals normals_;
+};
+
+struct Suspect {
+  Index element;
+  bool has_bad_corner;  ///< else it lies back over a neighbour, as it may where the surface does
+};
+
+std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after) {
+  const auto constraints = kept_constraints(before, after);
+  const Neighbourhood elements(after.points, after.triangles, after.quads, constraints);
+  std::vector<Suspect> suspects;
+  for (Index e = 0; e < elements.elements(); ++e)
+    if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0)
+      suspects.push_back({e, is_bad});
+  return suspects;
+}
+
 template <std::size_t N>
-std::optional<Defect> look_at(const Result& result, Index element, const std::array<Index, N>& nodes, double beside) {
+bool is_folded_under(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
+  return space::is_folded_under(result.surface(), result.normals(), p, result.triangle(element), unsure);
+}
+
+std::optional<Defect> find_turned(const Result& result, const std::vector<Suspect>& suspects,
+                                  std::span<const char> unsure) {
+  const QuadMesh& mesh = result.mesh();
+  const auto triangles = Index(mesh.triangles.size());
+  const auto is_excused = [&](Index e) {
+    return e < triangles ? is_folded_under(result, e, corners_of<3>(mesh.points, mesh.triangles[e]), unsure)
+                         : is_folded_under(result, e, corners_of<4>(mesh.points, mesh.quads[e - triangles]), unsure);
+  };
+  for (const auto& [e, has_bad_corner] : suspects)
+    if (has_bad_corner || !is_excused(e))
+      return defect_at("an element is turned over among its neighbours", mesh.points[result.sides().node(4 * e)]);
+  return {};
+}
+
+/// What an element is held against.
+struct Ground {
+  const Result& result;
+  std::span<const char> unsure;
+  double beside;
+  const TriangleTree* other_halves = nullptr;  ///< Reference::other_halves() of quads that were free to change
+};
+
+bool is_beside(const Ground& ground, Index element, Index node, double length2) {
+  const Result& result = ground.result;
+  const double most = ground.beside * ground.beside * length2;
+  if (result.foot(element, node).distance2 <= most) return false;
+  return !ground.other_halves || !(ground.other_halves->closest(result.mesh().points[node]).distance2 <= most);
+}
+
+template <std::size_t N>
+std::optional<Defect> look_at(const Ground& ground, Index element, const std::array<Index, N>& nodes) {
+  const Result& result = ground.result;
   const Corners<N> p = corners_of<N>(result.mesh().points, nodes);
   const std::size_t corner = bad_corner(result.sines(element, p, nodes));
-  if (corner < N && !is_folded_under(result.surface(), result.normals(), p, result.triangle(element)))
+  if (corner < N && !is_folded_under(result, element, p, ground.unsure) &&
+      !is_on_unsure_ground(result, element, p, ground.unsure))
     return defect_at("an element has a corner that is not convex", p[corner]);
   for (std::size_t i = 0; i < N; ++i) {
     const Index row = result.mesh().source[nodes[i]];
     if (row != kNone && result.surface().point(row) == p[i]) continue;
-    const double length2 = (p[(i + 1) % N] - p[i]).squaredNorm();
-    if (!(result.foot(element, nodes[i]).distance2 <= beside * beside * length2))
+    if (is_beside(ground, element, nodes[i], (p[(i + 1) % N] - p[i]).squaredNorm()))
       return defect_at("a node has left the surface", p[i]);
   }
   return {};
 }
 
-/// Joined triangles of which one lies back over the other, or has no normal. Where a thin tube has few triangles around
-/// they turn by a right angle and more, and elements that are not turned over can be found all the same.
-bool are_folded(const Background& surface, Index t, Index other) {
-  constexpr double kFold = -0.8;  // cosine between the normals: less than 37 degrees are left between the triangles
-  const Vector3d &a = surface.normal(t), &b = surface.normal(other);
-  return a.isZero() || b.isZero() || a.dot(b) < kFold;
-}
-
 }  // namespace
 
 template <std::size_t N>
-bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint) {
+bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint,
+                     std::span<const char> unsure) {
   Vector3d centre = Vector3d::Zero();
   for (const Vector3d& corner : p) centre += corner / double(N);
   std::set<Index> near;
@@ -87,26 +178,87 @@ bool is_folded_under(const Background& surface, const SurfaceNormals& normals, c
     for (int i = 0; i < 3; ++i)
       if (surface.neighbour(t, i) != kNone) near.insert(surface.neighbour(t, i));
   };
+  const auto is_unsure = [&](Index t) { return !unsure.empty() && unsure[t]; };
   add(centre);
   for (const Vector3d& corner : p) add(corner + 0.25 * (centre - corner));
   return std::any_of(near.begin(), near.end(), [&](Index t) {
-    for (int i = 0; i < 3; ++i)
-      if (const Index other = surface.neighbour(t, i); near.contains(other) && are_folded(surface, t, other))
+    for (int i = 0; i < 3 && !is_unsure(t); ++i)
+      if (const Index other = surface.neighbour(t, i);
+          near.contains(other) && !is_unsure(other) && are_folded(surface, t, other))
         return true;
     return false;
   });
 }
 
-template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<3>&, Index);
-template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<4>&, Index);
+template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<3>&, Index,
+                              std::span<const char>);
+template bool is_folded_under(const Background&, const SurfaceNormals&, const Corners<4>&, Index,
+                              std::span<const char>);
+
+template <std::size_t N>
+bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
+  if (unsure.empty()) return false;
+  Vector3d centre = Vector3d::Zero();
+  for (const Vector3d& corner : p) centre += corner / double(N);
+  const auto is_unsure = [&](const Vector3d& point) {
+    const Index t = result.normals().closest(point, result.triangle(element)).triangle;
+    bool found = unsure[t];
+    for (int i = 0; i < 3; ++i)
+      if (const Index other = result.surface().neighbour(t, i); other != kNone) found = found || unsure[other];
+    return found;
+  };
+  return is_unsure(centre) || std::any_of(p.begin(), p.end(), [&](const Vector3d& corner) {
+           return is_unsure(corner + 0.25 * (centre - corner));
+         });
+}
+
+template bool is_on_unsure_ground(const Result&, Index, const Corners<3>&, std::span<const char>);
+template bool is_on_unsure_ground(const Result&, Index, const Corners<4>&, std::span<const char>);
+
+std::vector<char> bad_elements(const Patch& patch) {
+  const Neighbourhood elements(patch.points, patch.triangles, patch.quads, patch.constraints);
+  const Reference reference(patch);
+  const auto triangles = Index(patch.triangles.size());
+  std::vector<char> bad(elements.elements(), 0);
+  for (Index e = 0; e < bad.size(); ++e) {
+    bad[e] = elements.has_bad_corner(e) || elements.folds(e) > 1;  // a surface that is folded is so at one side
+    if (const Index half = triangles + 2 * (e - triangles);
+        e >= triangles && are_folded(reference.surface, half, half + 1))
+      bad[e] = 1;
+  }
+  return bad;
+}
+
+std::vector<char> unsure_ground(const Patch& patch) {
+  if (patch.quads.empty()) return {};
+  std::vector<char> unsure;
+  for (const char bad : bad_elements(patch))
+    unsure.insert(unsure.end(), unsure.size() < patch.triangles.size() ? 1 : 2, bad);
+  return unsure;
+}
+
+std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after) {
+  const std::vector<Suspect> suspects = find_suspects(before, after);
+  if (suspects.empty()) return {};
+  return find_turned(Result(before, after), suspects, unsure_ground(before));
+}
 
 std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept, double beside) {
   const Result result(before, after);
+  std::vector<char> unsure = unsure_ground(before);
+  const bool are_free = kept == 0 && !before.quads.empty();
+  if (!are_free) unsure.clear();
+  Ground ground{result, unsure, beside};
+  const auto halves = are_free ? Reference::other_halves(before) : std::vector<Background::Triangle>();
+  std::optional<TriangleTree> other_halves;
+  if (!halves.empty()) ground.other_halves = &other_halves.emplace(before.points, halves);
   const Index triangles = Index(after.triangles.size());
   for (Index t = 0; t < triangles; ++t)
-    if (auto defect = look_at(result, t, after.triangles[t], beside)) return defect;
+    if (auto defect = look_at(ground, t, after.triangles[t])) return defect;
   for (Index q = Index(kept); q < after.quads.size(); ++q)
-    if (auto defect = look_at(result, triangles + q, after.quads[q], beside)) return defect;
+    if (auto defect = look_at(ground, triangles + q, after.quads[q])) return defect;
+  if (are_free)
+    if (auto defect = find_turned(result, find_suspects(before, after), unsure)) return defect;
   if (characteristic(before.points.size(), before.triangles, before.quads) !=
       characteristic(after.points.size(), after.triangles, after.quads))
     return Defect{"a handle or a hole has come or gone", {}};
@@ -114,11 +266,9 @@ std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, st
 }
 
 Index find_bad_quad(const Patch& patch, Index& corner) {
-  const ElementSides sides(patch.points.size(), patch.triangles, patch.quads, patch.constraints);
-  const MeshNormals normals(patch.points, sides);
+  const Neighbourhood elements(patch.points, patch.triangles, patch.quads, patch.constraints);
   for (Index q = 0; q < patch.quads.size(); ++q) {
-    const std::size_t k = bad_corner(
-        corner_sines(corners_of<4>(patch.points, patch.quads[q]), normals.of<4>(Index(patch.triangles.size()) + q)));
+    const std::size_t k = elements.bad_corner_of_quad(q);
     if (k == 4) continue;
     corner = patch.quads[q][k];
     return q;

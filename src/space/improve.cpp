@@ -22,20 +22,24 @@ std::vector<Background::Edge> barriers(const chart::CurvedRegion& region) {
 /// Which faces lie where the surface itself is folded; what lies beyond a crease does not count.
 class Folds {
  public:
-  Folds(const MeshOnSurface& mesh, const Background& surface) : mesh_(mesh), surface_(surface) {}
+  /// `unsure`: triangles that make no fold; may be empty.
+  Folds(const MeshOnSurface& mesh, const Background& surface, std::span<const char> unsure)
+      : mesh_(mesh), surface_(surface), unsure_(unsure) {}
 
   bool are_under(Index f) {
     if (!normals_) normals_.emplace(surface_);
     const chart::Face& face = mesh_.mesh().faces[f];
     const auto at = [&](Index i) -> const Eigen::Vector3d& { return mesh_.point(face[i]); };
     const Index hint = mesh_.mesh().near[f];
-    return chart::degree(face) == 4 ? is_folded_under<4>(surface_, *normals_, {at(0), at(1), at(2), at(3)}, hint)
-                                    : is_folded_under<3>(surface_, *normals_, {at(0), at(1), at(2)}, hint);
+    return chart::degree(face) == 4
+               ? is_folded_under<4>(surface_, *normals_, {at(0), at(1), at(2), at(3)}, hint, unsure_)
+               : is_folded_under<3>(surface_, *normals_, {at(0), at(1), at(2)}, hint, unsure_);
   }
 
  private:
   const MeshOnSurface& mesh_;
   const Background& surface_;
+  const std::span<const char> unsure_;
   std::optional<SurfaceNormals> normals_;  ///< made when it is asked for: most surfaces have no fold
 };
 
@@ -67,14 +71,15 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
     raise_bent(view, options);
     const bool is_valid = find_poor(view, 0).empty();
     looks += view.exact_looks();
-    if (Folds folds(view, surface); is_valid) return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
+    if (Folds folds(view, surface, region.unsure); is_valid)
+      return {{}, doubtful_faces(view, folds), kWorkOfLook * looks};
   }
   Faults faults;
   mesh = mend_in_charts(std::move(mesh), creases, region, surface, options, faults.work);
   MeshOnSurface view(mesh, creases, surface, whole, stretched);
   smooth_near(view, options, raise_poor(view, options));
   raise_bent(view, options);
-  Folds folds(view, surface);
+  Folds folds(view, surface, region.unsure);
   for (const PoorFace& poor : find_poor(view, 0))
     if (!folds.are_under(poor.face)) faults.turned.push_back(poor.face);
   if (faults.turned.empty()) faults.doubtful = doubtful_faces(view, folds);

@@ -19,6 +19,8 @@ class MeshNormals {
   /// itself.
   template <std::size_t N>
   CornerNormals<N> of(Index element) const;
+  /// Unit normal of the element itself; zero if it has none.
+  const Eigen::Vector3d& own(Index element) const { return of_element_[element]; }
 
  private:
   const ElementSides& sides_;

@@ -2,6 +2,7 @@
 #include "space/reference.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace qmorph::space {
 namespace {
@@ -15,6 +16,11 @@ double flatness(const Vector3d& a, const Vector3d& b, const Vector3d& c, const V
   return lengths > 0 ? abc.dot(acd) / lengths : -1;
 }
 
+void add_halves(std::vector<Background::Triangle>& triangles, Index a, Index b, Index c, Index d) {
+  triangles.push_back({a, b, c});
+  triangles.push_back({a, c, d});
+}
+
 }  // namespace
 
 std::vector<Background::Triangle> Reference::with_halves(const Patch& patch) {
@@ -23,13 +29,25 @@ std::vector<Background::Triangle> Reference::with_halves(const Patch& patch) {
   triangles.reserve(patch.triangles.size() + 2 * patch.quads.size());
   for (const auto& [a, b, c, d] : patch.quads) {
     const Vector3d &pa = patch.points[a], &pb = patch.points[b], &pc = patch.points[c], &pd = patch.points[d];
-    if (flatness(pa, pb, pc, pd) >= flatness(pb, pc, pd, pa)) {
-      triangles.push_back({a, b, c});
-      triangles.push_back({a, c, d});
-    } else {
-      triangles.push_back({b, c, d});
-      triangles.push_back({b, d, a});
-    }
+    if (flatness(pa, pb, pc, pd) >= flatness(pb, pc, pd, pa))
+      add_halves(triangles, a, b, c, d);
+    else
+      add_halves(triangles, b, c, d, a);
+  }
+  return triangles;
+}
+
+std::vector<Background::Triangle> Reference::other_halves(const Patch& patch) {
+  constexpr double kAlike = 1e-9;
+  std::vector<Background::Triangle> triangles;
+  for (const auto& [a, b, c, d] : patch.quads) {
+    const Vector3d &pa = patch.points[a], &pb = patch.points[b], &pc = patch.points[c], &pd = patch.points[d];
+    const double first = flatness(pa, pb, pc, pd), second = flatness(pb, pc, pd, pa);
+    if (std::abs(first - second) > kAlike) continue;
+    if (first >= second)
+      add_halves(triangles, b, c, d, a);
+    else
+      add_halves(triangles, a, b, c, d);
   }
   return triangles;
 }

@@ -21,6 +21,9 @@ class Reference {
   /// The triangles of a patch, and the halves of its quads, two and two: the side that they share is the last of the
   /// first and the first of the second. Empty without quads.
   static std::vector<Background::Triangle> with_halves(const Patch& patch);
+  /// The halves along the other diagonal of quads that are bent alike along both but for rounding: which of the two is
+  /// taken hangs on where a quad begins, and on the axes.
+  static std::vector<Background::Triangle> other_halves(const Patch& patch);
 
  private:
   std::vector<Background::Triangle> triangles_;

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "qmorph/check.hpp"
 #include "qmorph/convert.hpp"
 #include "qmorph/quality.hpp"
 #include "support/domains.hpp"
@@ -188,6 +189,117 @@ TEST_CASE("improve: on a curved surface nodes that have changed places go back, 
   } catch (const qmorph::SurfaceError& error) {
     CHECK(error.details().place.has_value());
   }
+}
+
+namespace {
+
+/// A dome over the grid, open below.
+Eigen::Vector3d on_dome(double x, double y) { return {x, y, 3 - 0.1 * (x * x + y * y)}; }
+
+Patch dome(Index n) {
+  Patch patch = grid(n, n);
+  for (auto& p : patch.points) p = on_dome(p.x() - 0.5 * double(n), p.y() - 0.5 * double(n));
+  return patch;
+}
+
+/// Some corner turns against the dome itself, whatever the elements of the input say.
+bool has_turned_over(const QuadMesh& mesh) {
+  const auto turns = [&](const auto& element) {
+    for (std::size_t i = 0; i < element.size(); ++i) {
+      const auto at = [&](std::size_t k) { return mesh.points[element[(i + k) % element.size()]]; };
+      const Eigen::Vector3d normal(0.2 * at(0).x(), 0.2 * at(0).y(), 1);
+      if (!((at(1) - at(0)).cross(at(element.size() - 1) - at(0)).dot(normal) > 0)) return true;
+    }
+    return false;
+  };
+  return std::any_of(mesh.quads.begin(), mesh.quads.end(), turns) ||
+         std::any_of(mesh.triangles.begin(), mesh.triangles.end(), turns);
+}
+
+/// What says the patch itself for a result.
+QuadMesh unchanged(const Patch& patch) {
+  QuadMesh mesh{patch.points, {}, patch.triangles, patch.quads};
+  for (Index i = 0; i < patch.points.size(); ++i) mesh.source.push_back(i);
+  return mesh;
+}
+
+/// Refused with a place.
+bool is_refused(const Patch& patch) {
+  try {
+    improve(patch);
+  } catch (const qmorph::SurfaceError& error) {
+    return error.details().place.has_value();
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("improve: a quad that crosses itself and has nothing around it is refused, and no good result") {
+  Patch patch;
+  patch.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  patch.quads = {{0, 1, 2, 3}};
+  SUBCASE("in a plane, with as much on one side as on the other") {}
+  SUBCASE("more on one side") { patch.points[1] = {2, 0, 0}; }
+  SUBCASE("in space") { patch.points[2].z() = 0.2; }
+  CHECK(is_refused(patch));
+  CHECK(qmorph::find_defect(patch, unchanged(patch), qmorph::InputQuads::free).has_value());
+}
+
+TEST_CASE("improve: on a dome nothing stays turned over where the input's own elements are, or it is refused") {
+  struct Swap {
+    Index a, b;
+  };
+  // Node (x, y) of a grid of 5 by 5 is x + 6 y: inside beside each other, across, farther; at the rim.
+  for (const Swap swap : {Swap{14, 15}, {14, 21}, {13, 22}, {7, 14}, {14, 28}, {1, 2}, {2, 9}, {0, 7}}) {
+    CAPTURE(swap.a);
+    CAPTURE(swap.b);
+    Patch patch = dome(5);
+    std::swap(patch.points[swap.a], patch.points[swap.b]);
+    CHECK(qmorph::find_defect(patch, unchanged(patch), qmorph::InputQuads::free).has_value());
+    try {
+      const QuadMesh mesh = improve(patch).mesh;
+      CHECK_FALSE(has_turned_over(mesh));
+      CHECK_FALSE(qmorph::find_defect(patch, mesh, qmorph::InputQuads::free).has_value());
+      qmorph::QualityAccumulator quality;
+      quality.add(patch, mesh);
+      CHECK(quality.result().scaled_jacobian_min > 0);
+    } catch (const qmorph::SurfaceError& error) {
+      CHECK(error.details().place.has_value());
+    }
+  }
+}
+
+TEST_CASE("improve: a quad that is turned over among others on a dome turns back, or it is refused") {
+  for (const Index q : {12, 2, 0}) {
+    Patch patch = dome(5);
+    std::reverse(patch.quads[q].begin(), patch.quads[q].end());
+    CAPTURE(q);
+    try {
+      const QuadMesh mesh = improve(patch).mesh;
+      CHECK_FALSE(has_turned_over(mesh));
+    } catch (const qmorph::SurfaceError& error) {
+      CHECK(error.details().place.has_value());
+    }
+  }
+}
+
+TEST_CASE("improve: no node has left a surface whose quads are bent alike along both diagonals") {
+  Patch patch = grid(4, 3);
+  for (auto& p : patch.points) p.z() = 0.1 * ((p.x() - 2) * (p.x() - 2) - (p.y() - 1.5) * (p.y() - 1.5));
+  std::swap(patch.points[6], patch.points[7]);
+  const QuadMesh mesh = improve(patch).mesh;
+  const auto defect = qmorph::find_defect(patch, mesh, qmorph::InputQuads::free);
+  CHECK_MESSAGE(!defect, (defect ? defect->what : ""));
+}
+
+TEST_CASE("improve: a sharp edge between good quads is no fault") {
+  Patch patch = grid(8, 4);  // the upper side comes back over the lower one, 20 degrees above it
+  for (auto& p : patch.points)
+    if (p.x() > 4) p = {4 - 0.94 * (p.x() - 4), p.y(), 0.34 * (p.x() - 4)};
+  const QuadMesh mesh = improve(patch).mesh;
+  CHECK(mesh.quads.size() == 32);
+  CHECK_FALSE(qmorph::find_defect(patch, mesh, qmorph::InputQuads::free).has_value());
 }
 
 TEST_CASE("improve: a quad whose corners cannot move is cut and built anew") {

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "space/put_right.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "space/element_sides.hpp"
+#include "space/faults.hpp"
+#include "space/result.hpp"
+
+namespace qmorph::space {
+namespace {
+
+using Eigen::Vector3d;
+
+class Spreading {
+ public:
+  explicit Spreading(const Patch& patch)
+      : patch_(patch),
+        sides_(patch.points.size(), patch.triangles, patch.quads, patch.constraints),
+        is_free_(patch.points.size(), 1),
+        neighbours_(patch.points.size()) {
+    for (Index v : patch.fixed) is_free_[v] = 0;
+    for (Index side = 0; side < sides_.slots(); ++side) {
+      if (sides_.node(side) == kNone) continue;
+      const Index a = sides_.node(side), b = sides_.target(side);
+      neighbours_[a].push_back(b);
+      if (sides_.opposite(side) == kNone) is_free_[a] = is_free_[b] = 0;
+    }
+  }
+
+  /// With nodes of the elements that are marked and of those some rings around.
+  Patch run(std::vector<char> elements, int rings) const {
+    constexpr int kPasses = 40;
+    std::vector<Index> nodes = nodes_around(std::move(elements), rings);
+    Patch moved = patch_;
+    for (int pass = 0; pass < kPasses; ++pass)
+      for (Index v : nodes) {
+        Vector3d sum = Vector3d::Zero();
+        for (Index other : neighbours_[v]) sum += moved.points[other];
+        moved.points[v] = sum / double(neighbours_[v].size());
+      }
+    QuadMesh mesh{moved.points, std::vector<Index>(moved.points.size()), patch_.triangles, patch_.quads};
+    std::iota(mesh.source.begin(), mesh.source.end(), Index(0));
+    lay_onto(patch_, mesh);
+    moved.points = std::move(mesh.points);
+    return moved;
+  }
+
+ private:
+  /// Those that are free, in their order.
+  std::vector<Index> nodes_around(std::vector<char> elements, int rings) const {
+    std::vector<char> is_near(patch_.points.size(), 0);
+    for (int ring = 0; ring <= rings; ++ring) {
+      for (Index side = 0; side < sides_.slots(); ++side)
+        if (elements[side / 4] && sides_.node(side) != kNone) is_near[sides_.node(side)] = 1;
+      for (Index side = 0; side < sides_.slots(); ++side)
+        if (sides_.node(side) != kNone && is_near[sides_.node(side)]) elements[side / 4] = 1;
+    }
+    std::vector<Index> nodes;
+    for (Index v = 0; v < is_near.size(); ++v)
+      if (is_near[v] && is_free_[v]) nodes.push_back(v);
+    return nodes;
+  }
+
+  const Patch& patch_;
+  const ElementSides sides_;
+  std::vector<char> is_free_;
+  std::vector<std::vector<Index>> neighbours_;  ///< by node; of free ones, each once
+};
+
+bool is_any(const std::vector<char>& marks) {
+  return std::any_of(marks.begin(), marks.end(), [](char mark) { return mark != 0; });
+}
+
+}  // namespace
+
+std::optional<Patch> put_right(const Patch& patch) {
+  const std::vector<char> bad = bad_elements(patch);
+  if (!is_any(bad)) return {};
+  const Spreading spreading(patch);
+  for (const int rings : {0, 1, 3})
+    if (Patch moved = spreading.run(bad, rings); !is_any(bad_elements(moved))) return moved;
+  return {};
+}
+
+void lay_onto(const Patch& patch, QuadMesh& mesh) {
+  std::vector<Vector3d> points = mesh.points;
+  const Result result(patch, mesh);
+  for (Index v = 0; v < points.size(); ++v) {
+    const Index row = mesh.source[v];
+    const bool stays = row != kNone && patch.points[row] == points[v];
+    if (!stays && result.foot(v).triangle != kNone) points[v] = result.foot(v).point;
+  }
+  mesh.points = std::move(points);
+}
+
+}  // namespace qmorph::space
