@@ -142,7 +142,8 @@ std::string film_page(const ModelReport& model, const Recorder& recorder, const 
             {"command", command_line(facts.arguments)},
             {"input", facts.input},
             {"output", facts.output}};
-  json["frame"] = {{"flat", frame.flat}, {"turned", {turn.up, turn.right}}};
+  const Vec3& c = frame.centre;
+  json["frame"] = {{"centre", {c.x(), c.y(), c.z()}}, {"flat", frame.flat}, {"turned", {turn.up, turn.right}}};
   json["regions"] = Json::array();
   for (PlacedFilm& film : films) {
     place(film, frame);

@@ -367,8 +367,11 @@ TEST_CASE("divide: first segments in a tip keep their length where a boundary ne
 }
 
 TEST_CASE("divide: a seam whose only segment is an edge of another surface does not leave that odd") {
+  // The inner half of a torus, cut across its hole; Gmsh 4.13 cannot mesh a whole torus cut there.
   convert(R"(SetFactory("OpenCASCADE");
-    Torus(1) = {0, 0, 0, 1, 0.4}; Box(2) = {0.62, -3, -3, 4, 6, 6};
+    Circle(1) = {1, 0, 0, 0.4, Pi/2, 3*Pi/2}; Line(2) = {2, 1}; Curve Loop(1) = {1, 2}; Plane Surface(1) = {1};
+    Rotate{{1, 0, 0}, {0, 0, 0}, Pi/2} { Surface{1}; } Extrude{{0, 0, 1}, {0, 0, 0}, 2*Pi}{ Surface{1}; }
+    Recursive Delete{ Surface{1}; } Box(2) = {0.62, -3, -3, 4, 6, 6};
     BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }
     Mesh.MeshSizeMax = 0.4;)");
 }

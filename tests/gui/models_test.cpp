@@ -141,7 +141,7 @@ std::string click(int x, int y) {
 
 TEST_CASE("window: surfaces are picked with the mouse while quads and marks are shown") {
   if (!has_xdotool()) return;
-  const Plate plate;
+  const Plate plate(kEllipse);
   Window window({plate.path});
   window.press(action::kConvert);
   for (int i = 0; i < 20; ++i) window.gui().turn(0.05);

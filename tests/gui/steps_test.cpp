@@ -98,7 +98,7 @@ TEST_CASE("window: at each step triangles and quads cover the surface, and the f
 }
 
 TEST_CASE("window: views show the colouring that is chosen, and vanish with the quads") {
-  const Plate plate;
+  const Plate plate(kEllipse);
   Window window({plate.path});
   const auto views = [] {
     std::vector<int> tags;

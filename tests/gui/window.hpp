@@ -112,10 +112,16 @@ inline std::string figure(const std::string& name) {
   return names.empty() ? "" : adapter::text_parameter(names.front());
 }
 
+/// As large as the plate. Whatever the triangles are, its quads have irregular nodes: a boundary without corners asks
+/// for at least four with three quads.
+inline constexpr const char* kEllipse =
+    "SetFactory(\"OpenCASCADE\");\nDisk(3) = {1, 0.5, 0, 1, 0.5};\n"
+    "Physical Surface(\"ellipse\", 1) = {3};\nMesh.MeshSizeMax = 0.1;\n";
+
 struct Plate {
   TemporaryDirectory directory;
   std::string path = directory / "plate.geo";
-  Plate() { write_file(path, kPlate); }
+  explicit Plate(const char* script = kPlate) { write_file(path, script); }
 };
 
 }  // namespace qmorph::test

@@ -72,7 +72,7 @@ bool lies_between(int surface, const Side& a, const Side& b, double length) {
   const Vector3d middle = (a.point_after(length) + b.point_after(length)) / 2;
   std::vector<double> parameters;
   ::gmsh::model::getParametrization(2, surface, {middle.x(), middle.y(), middle.z()}, parameters);
-  return parameters.size() == 2 && ::gmsh::model::isInside(2, surface, parameters) == 1;
+  return parameters.size() == 2 && is_inside(surface, parameters);
 }
 
 /// Lengths of the first segments at both ends; 0: as they are.

@@ -41,7 +41,17 @@ inline PlacedNode placed_node(std::size_t tag) {
   return node;
 }
 
+/// Whether a surface has these parameters (u, v) within its boundary. Newer versions take them for coordinates unless
+/// they are told; a template, so that only the call which there is has to compile.
+template <class Parameters>
+bool is_inside(int surface, const Parameters& parameters) {
+  if constexpr (requires { ::gmsh::model::isInside(2, surface, parameters, true); })
+    return ::gmsh::model::isInside(2, surface, parameters, true) == 1;
+  else
+    return ::gmsh::model::isInside(2, surface, parameters) == 1;
+}
+
 }  // namespace qmorph::adapter
 
-// Elsewhere they would compile with one version of Gmsh only.
-#pragma GCC poison getType getEntityType getNode
+// Elsewhere they would compile with one version of Gmsh only, or mean something else with another.
+#pragma GCC poison getType getEntityType getNode isInside
