@@ -46,7 +46,8 @@ class Widening {
            mesh_.node[node(before)] == mesh_.node[node(next(after))];
   }
 
-  /// Sides that start at the end of this one, a node inside, counted from the face that it is of; the last is the one back.
+  /// Sides that start at the end of this one, a node inside, counted from the face that it is of; the last is the one
+  /// back.
   std::vector<Index> spokes_at_end(Index side) const {
     std::vector<Index> spokes;
     for (Index spoke = next(side); spoke != opposite_[side]; spoke = next(opposite_[spoke])) spokes.push_back(spoke);

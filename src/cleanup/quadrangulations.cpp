@@ -59,7 +59,8 @@ class Search {
     return v < ring_.size() ? ring_[v] : RingNode{0, kIdealInside, kFewestInside, kMostInside};
   }
 
-  /// What the nodes cost at least, whatever becomes of the polygons that are left; more than allowed if that is nothing.
+  /// What the nodes cost at least, whatever becomes of the polygons that are left; more than allowed if that is
+  /// nothing.
   int least_cost(const std::vector<Polygon>& left) const {
     std::vector<char> open(edges_.size(), 0);
     for (const Polygon& polygon : left)

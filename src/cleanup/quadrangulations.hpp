@@ -19,8 +19,8 @@ struct RingNode {
 };
 
 /// A quad on the first edge of a polygon with the nodes 0, 1, ..., m - 1: its other corners are the nodes `ahead` (next
-/// to node 1) and `back` (next to node 0) of the polygon, or new ones. What is left of the polygon is filled by the next
-/// steps, in the order of Quadrangulation.
+/// to node 1) and `back` (next to node 0) of the polygon, or new ones. What is left of the polygon is filled by the
+/// next steps, in the order of Quadrangulation.
 struct FillStep {
   static constexpr int kNew = -1;
   int ahead = kNew, back = kNew;
@@ -40,14 +40,14 @@ struct SearchLimits {
   double least_sine = 0;
 };
 
-/// The cheapest fillings of the ring (counter-clockwise), the cheapest first; equally cheap ones as they are found. `ring`: an even number
-/// of nodes, at least four. Adds the steps of the search to `steps`.
+/// The cheapest fillings of the ring (counter-clockwise), the cheapest first; equally cheap ones as they are found.
+/// `ring`: an even number of nodes, at least four. Adds the steps of the search to `steps`.
 std::vector<Quadrangulation> find_quadrangulations(const std::vector<RingNode>& ring, const SearchLimits& limits,
                                                    std::size_t& steps);
 
-/// Replaces the faces inside the ring (half-edges, inside on their left) by the quadrangulation's quads. New nodes are in
-/// the middle of the ring; appends them to `nodes`. False, perhaps half-way, if an edge that it needs is there already
-/// outside: to be called in a transaction.
+/// Replaces the faces inside the ring (half-edges, inside on their left) by the quadrangulation's quads. New nodes are
+/// in the middle of the ring; appends them to `nodes`. False, perhaps half-way, if an edge that it needs is there
+/// already outside: to be called in a transaction.
 bool fill(kernel::Mesh& mesh, const std::vector<Index>& ring, const std::vector<Index>& faces,
           const Quadrangulation& quadrangulation, std::vector<Index>& nodes);
 

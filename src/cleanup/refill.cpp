@@ -20,8 +20,8 @@ constexpr double kTried = 0.45, kPoor = 0.6;
 /// What one of the valence score costs, and what all sines together lose, and what a change has to bring: in quads of
 /// sine 0.
 constexpr double kPriceOfScore = 0.03, kPriceOfLoss = 0.15, kLeastGain = 0.02;
-/// Rings of quads around the poor one that are replaced with it, first few, then more; without a ring those that share a
-/// side with it.
+/// Rings of quads around the poor one that are replaced with it, first few, then more; without a ring those that share
+/// a side with it.
 constexpr std::array kRingsReplaced{0, 1, 2};
 /// With more a search would end before it has found all.
 constexpr std::size_t kLongestOutline = 20, kMostSteps = 10'000;

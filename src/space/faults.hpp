@@ -14,8 +14,8 @@
 namespace qmorph::space {
 
 /// The surface lies back over itself within the element: there the input is folded, or has triangles that are bad
-/// themselves, and an element may have no way to be good. That it turns far is no fold. `unsure`, by triangle, are those
-/// that make no fold, as unsure_ground() has them; may be empty.
+/// themselves, and an element may have no way to be good. That it turns far is no fold. `unsure`, by triangle, are
+/// those that make no fold, as unsure_ground() has them; may be empty.
 template <std::size_t N>
 bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint,
                      std::span<const char> unsure = {});

@@ -80,8 +80,8 @@ class Cutter {
       for (std::size_t j = 0; j < i; ++j) look_for_neck(surface.boundary[i], surface.boundary[j]);
   }
 
-  /// Where a curve shorter than the size lies close to a longer one, as the end of a rib does to the edge of a plate, the
-  /// longer one has a piece as short.
+  /// Where a curve shorter than the size lies close to a longer one, as the end of a rib does to the edge of a plate,
+  /// the longer one has a piece as short.
   void look_for_short_side(Index c, Index d) {
     const DividedCurve &curve = model_.curves[c], &side = model_.curves[d];
     if (c == d || !may_cut_[c] || side.segments == 0 || side.length > curve.size()) return;
