@@ -48,17 +48,12 @@ class SpentInAll {
   const std::vector<Budget>& shares_;
 };
 
-/// Whether all surfaces of a call are flat.
-enum class CallKind { flat, curved };
-
 /// Of a call with so many triangles in all its surfaces. 1000 of work take about 20 microseconds; an ordinary surface
 /// costs 60 to 400 a triangle besides what everything costs. Few triangles may cost more each, because tries with other
-/// constants gain much there: fewer than two thousand if all surfaces are flat, else, since parts and windows of curved
-/// ones are tried in many ways, fewer than five thousand.
-inline double budget_of_call(double triangles, CallKind kind) {
-  constexpr double kEach = 1100, kMore = 60e6, kFewFlat = 2000, kFewCurved = 5000;
-  const double few = kind == CallKind::flat ? kFewFlat : kFewCurved;
-  return kEach * triangles + kMore * std::max(0.0, 1 - triangles / few);
+/// constants gain much there.
+inline double budget_of_call(double triangles) {
+  constexpr double kEach = 1100, kFew = 60e6, kLessEach = 11'000;
+  return std::max(kEach * triangles, kFew - kLessEach * triangles);
 }
 
 /// What a surface of so many triangles is worth at most, however much its call may cost: in a small one a single step

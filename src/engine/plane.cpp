@@ -80,19 +80,4 @@ std::optional<Plane> find_plane(const Patch& patch) {
   return plane;
 }
 
-bool has_flat_points(const Patch& patch) {
-  if (patch.points.empty()) return true;
-  const Vector3d& first = patch.points.front();
-  const auto farthest = [&](const auto& distance) {
-    const auto is_nearer = [&](const Vector3d& a, const Vector3d& b) { return distance(a) < distance(b); };
-    return *std::max_element(patch.points.begin(), patch.points.end(), is_nearer);
-  };
-  const Vector3d along = farthest([&](const Vector3d& p) { return (p - first).squaredNorm(); }) - first;
-  const Vector3d across = farthest([&](const Vector3d& p) { return (p - first).cross(along).squaredNorm(); }) - first;
-  const Vector3d normal = along.cross(across).normalized();
-  return std::all_of(patch.points.begin(), patch.points.end(), [&](const Vector3d& p) {
-    return std::abs((p - first).dot(normal)) <= kPlanarTolerance * along.norm();
-  });
-}
-
 }  // namespace qmorph

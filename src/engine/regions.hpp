@@ -33,9 +33,6 @@ inline ErrorSubject node_row(std::size_t row) { return {ErrorSubject::Kind::node
 /// Plane of the patch, which is sound (overlap.hpp), if it is planar. Throws SurfaceError if no triangle has an area.
 std::optional<Plane> find_plane(const Patch& patch);
 
-/// Whether all points lie in a plane, whatever the triangles are: a quick look at a patch that has not been checked.
-bool has_flat_points(const Patch& patch);
-
 /// Triangles that are joined through edges that are no constraints, as a manifold with boundary: a node at which
 /// several fans of triangles meet (a slit, a pinched boundary) becomes one vertex for each fan, so that
 /// constraints need no care afterwards. They are boundary, and boundary never moves; a fan that goes all round its node

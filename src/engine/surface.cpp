@@ -44,11 +44,6 @@ SurfaceRecord record_of(const Surface& surface, const Options& options, std::vec
 /// Triangles that it has, or could have.
 double weight(const Patch& patch) { return double(patch.triangles.size() + 2 * patch.quads.size()); }
 
-CallKind kind_of_call(const std::vector<const Patch*>& patches) {
-  const bool are_flat = std::all_of(patches.begin(), patches.end(), [](const Patch* p) { return has_flat_points(*p); });
-  return are_flat ? CallKind::flat : CallKind::curved;
-}
-
 /// An error about a place at which the region has a node is about that node.
 SurfaceError with_node(const SurfaceError& error, const Surface& surface, const Region& region) {
   ErrorDetails details = error.details();
@@ -161,7 +156,7 @@ SurfaceWork work_on_regions(const Surface& surface, const Options& options, Budg
 
 Conversion work_on_patch(const Patch& patch, const Options& options, const PatchWork& work) {
   SurfaceWork result;
-  Budget budget(budget_of_call(weight(patch), kind_of_call({&patch})));
+  Budget budget(budget_of_call(weight(patch)));
   parallel::with_threads(options.threads, [&] { result = work_and_measure(patch, options, budget, work); });
   if (options.observer) result.record.tell(*options.observer, 0);
   return std::move(result.conversion);
@@ -178,10 +173,9 @@ class Patches {
     double total = 0;
     for (const Patch* patch : patches) total += weight(*patch);
     shared_ = parallel::SharedProgress(options.progress, total);
-    const double in_all = allowed ? *allowed : budget_of_call(total, kind_of_call(patches));
     for (const Patch* patch : patches) {
       progress_.push_back(shared_.part(weight(*patch)));
-      budgets_.emplace_back(share_of(in_all, weight(*patch), total, patches.size()));
+      budgets_.emplace_back(share_of(allowed.value_or(budget_of_call(total)), weight(*patch), total, patches.size()));
     }
   }
 

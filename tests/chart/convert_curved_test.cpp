@@ -268,7 +268,7 @@ TEST_CASE("curved: tries end in time on what overlaps itself everywhere") {
       for (double& x : p) x += rng.between(-3, 3);
     for (const chart::CurvedRegion& region : chart::curved_regions(patch, 0.7)) {
       const std::size_t size = region.region.triangles.size();
-      Budget budget(budget_of_call(double(size), CallKind::curved));
+      Budget budget(budget_of_call(double(size)));
       try {
         chart::SharedDivision shared;
         chart::work_on_region(region, Options(), budget, chart::Task::convert, shared);
@@ -285,7 +285,7 @@ TEST_CASE("curved: a division that was made for another front gives the same as 
   REQUIRE(regions.size() == 1);
   chart::SharedDivision shared, other;
   const auto points = [&](chart::SharedDivision& division) {
-    Budget budget(budget_of_call(double(patch.triangles.size()), CallKind::curved));
+    Budget budget(budget_of_call(double(patch.triangles.size())));
     const auto work = chart::try_region(regions[0], Options(), budget, chart::Task::convert, division);
     REQUIRE(work);
     return work->mesh.points;

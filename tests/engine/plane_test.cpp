@@ -157,20 +157,3 @@ TEST_CASE("convert repairs a triangle without area if its node is free to move")
   CHECK(result.triangles.empty());
   for (Index v : result.quads[0]) CHECK(result.source[v] < 4);
 }
-
-TEST_CASE("plane: a quick look sees whether all points lie in one, however few and wherever they are") {
-  Patch patch;
-  CHECK(has_flat_points(patch));
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(1, 2, 3), {4, 2, 5}, {-2, 1, 0}}) {
-    patch.points.push_back(p);
-    CHECK(has_flat_points(patch));
-  }
-  const Eigen::Vector3d inside = patch.points[0] + 0.3 * (patch.points[1] - patch.points[0]);
-  const Eigen::Vector3d normal = (patch.points[1] - patch.points[0]).cross(patch.points[2] - patch.points[0]);
-  patch.points.push_back(inside + 1e-9 * normal);
-  CHECK(has_flat_points(patch));
-  patch.points.push_back(inside + 1e-3 * normal);
-  CHECK(!has_flat_points(patch));
-  patch.points.back().x() = std::numeric_limits<double>::quiet_NaN();
-  CHECK(!has_flat_points(patch));
-}
