@@ -97,8 +97,9 @@ SurfaceWork improve_as_it_is(const Patch& patch, const Options& options, Budget&
   halves.quads.clear();
   auto regions = curved_regions(halves, options.crease_angle, patch.triangles.size());
   const std::vector<char> unsure = space::unsure_ground(patch);
-  for (CurvedRegion& region : regions)
-    for (Index row : region.region.row) region.unsure.push_back(!unsure.empty() && unsure[row]);
+  if (!unsure.empty())
+    for (CurvedRegion& region : regions)
+      for (Index row : region.region.row) region.unsure.push_back(unsure[row]);
   return work_on_curved(halves, regions, options, Task::improve, budget, nullptr);
 }
 

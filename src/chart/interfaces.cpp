@@ -8,6 +8,7 @@
 #include "chart/topology.hpp"
 #include "chart/windows.hpp"
 #include "engine/parts/interface.hpp"
+#include "kernel/is_any.hpp"
 #include "kernel/sort_unique.hpp"
 #include "stretch/window.hpp"
 

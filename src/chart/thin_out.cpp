@@ -7,6 +7,7 @@
 
 #include "chart/rework.hpp"
 #include "chart/windows.hpp"
+#include "kernel/is_any.hpp"
 #include "kernel/sort_unique.hpp"
 #include "smoothing/node_energy.hpp"
 #include "smoothing/smooth.hpp"

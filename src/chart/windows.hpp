@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <algorithm>
 
 #include "chart/divide.hpp"
 #include "engine/budget.hpp"
@@ -22,11 +21,6 @@ struct WindowSize {
 
 /// Of a face that is laid flat, or looked at for a round of windows.
 inline constexpr std::size_t kWorkToLayOut = 300, kWorkToLook = 20;
-
-/// Whether a node waits for its window.
-inline bool is_any(const std::vector<char>& waiting) {
-  return std::any_of(waiting.begin(), waiting.end(), [](char waits) { return waits != 0; });
-}
 
 /// Windows with no face in common around the nodes that `waiting` marks, and that it does not any more when a window
 /// has them well inside, or no window can be laid flat around them. Called until it returns nothing, every node has had

@@ -17,6 +17,7 @@
 #include "engine/budget.hpp"
 #include "engine/front_variants.hpp"
 #include "geometry/describe.hpp"
+#include "kernel/is_any.hpp"
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"

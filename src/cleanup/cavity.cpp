@@ -29,11 +29,18 @@ bool Cavity::start(Index v) {
   return mesh_.is_free(v) && add_around(v) && make_convex();
 }
 
-bool Cavity::start_with_all() {
+bool Cavity::start_with(const std::vector<Index>& faces) {
   begin();
-  for (Index f = 0; f < mesh_.face_slots(); ++f)
-    if (mesh_.is_live_face(f) && !add(f)) return false;
+  for (Index f : faces)
+    if (!add(f)) return false;
   return trace();
+}
+
+bool Cavity::start_with_all() {
+  std::vector<Index> all;
+  for (Index f = 0; f < mesh_.face_slots(); ++f)
+    if (mesh_.is_live_face(f)) all.push_back(f);
+  return start_with(all);
 }
 
 /// Whether what is asked for holds for a face around v.

@@ -15,6 +15,8 @@ class Cavity {
 
   /// The quads around v. False if they are no disc of quads whose inner nodes are free.
   bool start(Index v);
+  /// These faces. False as above.
+  bool start_with(const std::vector<Index>& faces);
   /// All faces of the mesh. False as above.
   bool start_with_all();
   /// Adds the quads around these nodes, and those without which the outline would be concave. False, with the disc as

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <optional>
-#include <set>
 
 #include "cleanup/attempt.hpp"
+#include "cleanup/cavity.hpp"
 #include "cleanup/quadrangulations.hpp"
 #include "kernel/sort_unique.hpp"
 
@@ -30,50 +28,34 @@ constexpr int kMostScore = 4, kMostMore = 1;
 /// Fillings that are relaxed.
 constexpr std::size_t kMostTries = 24;
 constexpr std::size_t kWorkOfStep = 20;
-constexpr int kRingsRelaxed = 1;
+/// That spread new nodes, and rings that are relaxed then.
+constexpr int kSweeps = 10, kRingsRelaxed = 1;
 
 bool is_poor(const kernel::Mesh& mesh, Index f) {
   return mesh.is_live_face(f) && mesh.is_quad(f) && !mesh.is_above(f, kTried);
 }
 
-/// A disc of quads whose inner nodes are free.
+/// What is to be replaced, in an order that depends on the numbers of its nodes alone.
 struct Window {
   std::vector<Index> faces, outline, inner;
+  std::vector<int> outer;  ///< as Cavity::outer_edges()
 };
 
-std::optional<Window> window_of(const kernel::Mesh& mesh, std::vector<Index> faces) {
-  Window window;
-  std::erase_if(faces, [&](Index f) { return !mesh.is_quad(f); });
-  sort_unique(faces);
-  window.faces = std::move(faces);
-  const std::set<Index> inside(window.faces.begin(), window.faces.end());
-  std::map<Index, Index> leaving;  // by node of the outline: its half-edge
-  std::set<Index> nodes;
-  for (Index f : window.faces)
-    for (Index h : mesh.sides_of(f)) {
-      nodes.insert(mesh.origin(h));
-      if (inside.contains(mesh.face(kernel::Mesh::twin(h)))) continue;
-      if (!leaving.emplace(mesh.origin(h), h).second) return {};  // it touches itself
-    }
-  if (leaving.empty() || leaving.size() > kLongestOutline) return {};
-  Index h = leaving.begin()->second;
-  do {
-    window.outline.push_back(h);
-    h = leaving.at(mesh.target(h));
-  } while (h != window.outline.front() && window.outline.size() <= leaving.size());
-  if (window.outline.size() != leaving.size()) return {};  // it has a hole
-  for (Index v : nodes)
-    if (!leaving.contains(v)) window.inner.push_back(v);
-  const bool is_disc = window.faces.size() + 1 == window.inner.size() + window.outline.size() / 2;
-  const bool is_free = std::all_of(window.inner.begin(), window.inner.end(), [&](Index v) { return mesh.is_free(v); });
-  if (!is_disc || !is_free) return {};
+Window window_of(const Cavity& cavity, const kernel::Mesh& mesh) {
+  Window window{cavity.faces(), cavity.outline(), cavity.inner_nodes(), cavity.outer_edges()};
+  sort_unique(window.inner);
+  const auto first = std::min_element(window.outline.begin(), window.outline.end(),
+                                      [&](Index g, Index h) { return mesh.origin(g) < mesh.origin(h); }) -
+                     window.outline.begin();
+  std::rotate(window.outline.begin(), window.outline.begin() + first, window.outline.end());
+  std::rotate(window.outer.begin(), window.outer.begin() + first, window.outer.end());
   return window;
 }
 
 class Refilling {
  public:
   Refilling(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
-      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
+      : mesh_(mesh), cavity_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
     relaxing_.iterations = std::max(relaxing_.iterations, 12);
     relaxing_.untangling_sweeps = 12;
   }
@@ -95,18 +77,18 @@ class Refilling {
       if (rings == 0)
         for (Index h : mesh_.sides_of(f))
           if (const Index other = mesh_.face(kernel::Mesh::twin(h)); other != kNone) faces.push_back(other);
-      if (const auto window = window_of(mesh_, std::move(faces)); window && replace(*window, mesh_.smallest_sine(f)))
-        return true;
+      std::erase_if(faces, [&](Index g) { return !mesh_.is_quad(g); });
+      sort_unique(faces);
+      if (!cavity_.start_with(faces) || cavity_.outline().size() > kLongestOutline) continue;
+      if (replace(window_of(cavity_, mesh_), mesh_.smallest_sine(f))) return true;
     }
     return false;
   }
 
-  /// The outline's node between two of its half-edges. On the boundary it has as many edges at most as leave quads that
-  /// share the angle evenly a sine which is good enough.
-  RingNode node(Index before, Index h) const {
-    const Index v = mesh_.origin(h);
-    RingNode node{1, score_.ideal(v), 3, int(kMostValence), mesh_.point(v), mesh_.is_free(v)};
-    for (Index e = kernel::Mesh::twin(before); e != h; e = mesh_.rotate_ccw(e)) ++node.outer;
+  /// A node of the outline. On the boundary it has as many edges at most as leave quads that share the angle evenly a
+  /// sine which is good enough.
+  RingNode node(Index v, int outer) const {
+    RingNode node{outer, score_.ideal(v), 3, int(kMostValence), mesh_.point(v), mesh_.is_free(v)};
     if (!mesh_.is_boundary(v)) return node;
     const double angle = score_.inside_angle(v);
     node.fewest = std::max(node.outer, 2);
@@ -116,13 +98,13 @@ class Refilling {
 
   /// `worst`: the sine of the quad for which this is done.
   bool replace(const Window& window, double worst) {
-    const std::size_t n = window.outline.size();
     std::vector<RingNode> ring;
     int cost = 0;
     for (Index v : window.inner) cost += score_.cost(v);
-    for (std::size_t i = 0; i < n; ++i) {
-      ring.push_back(node(window.outline[(i + n - 1) % n], window.outline[i]));
-      cost += score_.cost(mesh_.origin(window.outline[i]));
+    for (std::size_t i = 0; i < window.outline.size(); ++i) {
+      const Index v = mesh_.origin(window.outline[i]);
+      ring.push_back(node(v, window.outer[i]));
+      cost += score_.cost(v);
     }
     SearchLimits limits;
     limits.least_sine = worst;
@@ -166,7 +148,7 @@ class Refilling {
     mesh_.begin();
     bool kept = fill(mesh_, window.outline, window.faces, quadrangulation, fresh);
     if (kept) {
-      settle(fresh);
+      topology::spread(mesh_, fresh, kSweeps);
       nodes.insert(nodes.end(), fresh.begin(), fresh.end());
       topology::remove_doublets(mesh_, nodes);
       kept = smoothing::smooth_near(mesh_, relaxing_, nodes, kRingsRelaxed);
@@ -181,14 +163,8 @@ class Refilling {
     return kept;
   }
 
-  /// New nodes go to the middle of their neighbours.
-  void settle(const std::vector<Index>& nodes) {
-    constexpr int kSweeps = 10;
-    for (int sweep = 0; sweep < kSweeps; ++sweep)
-      for (Index v : nodes) mesh_.set_point(v, topology::middle_of_neighbours(mesh_, v));
-  }
-
   kernel::Mesh& mesh_;
+  Cavity cavity_;
   Score score_;
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;

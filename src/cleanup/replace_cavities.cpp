@@ -185,8 +185,7 @@ class Replacing {
   bool settle(std::span<const Index> nodes) {
     constexpr int kSweeps = 5;
     constexpr double kMostFolded = 0.02;
-    for (int sweep = 0; sweep < kSweeps; ++sweep)
-      for (Index v : nodes) mesh_.set_point(v, topology::middle_of_neighbours(mesh_, v));
+    topology::spread(mesh_, nodes, kSweeps);
     const std::vector<Index> faces = topology::faces_around(mesh_, {nodes.begin(), nodes.end()});
     mesh_.add_work(faces.size());
     const auto folded = std::count_if(faces.begin(), faces.end(), [&](Index f) { return !mesh_.is_valid_face(f); });

@@ -82,16 +82,14 @@ std::optional<Vector3d> plane_normal(const Patch& patch) {
 class Shapes::InSpace {
  public:
   explicit InSpace(const SurfaceElements& mesh)
-      : sides_(mesh.points.size(), mesh.triangles, mesh.quads), by_mesh_(std::in_place, mesh.points, sides_) {}
+      : sides_(std::in_place, mesh.points.size(), mesh.triangles, mesh.quads),
+        by_mesh_(std::in_place, mesh.points, *sides_) {}
 
   InSpace(const Patch& before, const QuadMesh& after)
-      : sides_(after.points.size(), after.triangles, after.quads),
-        result_(std::in_place, before, after),
-        unsure_(space::unsure_ground(before)) {
-    if (std::count(unsure_.begin(), unsure_.end(), 1) == 0)
-      unsure_.clear();
-    else
-      by_mesh_.emplace(after.points, sides_);
+      : result_(std::in_place, before, after), unsure_(space::unsure_ground(before)) {
+    if (unsure_.empty()) return;
+    sides_.emplace(after.points.size(), after.triangles, after.quads);
+    by_mesh_.emplace(after.points, *sides_);
   }
 
   template <std::size_t N>
@@ -101,7 +99,7 @@ class Shapes::InSpace {
   }
 
  private:
-  space::ElementSides sides_;
+  std::optional<space::ElementSides> sides_;
   std::optional<space::MeshNormals> by_mesh_;
   std::optional<space::Result> result_;
   std::vector<char> unsure_;  ///< space::unsure_ground(), if any is

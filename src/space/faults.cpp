@@ -8,6 +8,7 @@
 
 #include "geometry/describe.hpp"
 #include "geometry/predicates.hpp"
+#include "kernel/is_any.hpp"
 #include "space/mesh_normals.hpp"
 #include "space/triangle_tree.hpp"
 
@@ -164,13 +165,22 @@ std::optional<Defect> look_at(const Ground& ground, Index element, const std::ar
   return {};
 }
 
+/// The centre, and a point near each corner.
+template <std::size_t N>
+std::vector<Vector3d> points_inside(const Corners<N>& p) {
+  constexpr double kInwards = 0.25;  // of the way to the centre
+  Vector3d centre = Vector3d::Zero();
+  for (const Vector3d& corner : p) centre += corner / double(N);
+  std::vector<Vector3d> points{centre};
+  for (const Vector3d& corner : p) points.emplace_back(corner + kInwards * (centre - corner));
+  return points;
+}
+
 }  // namespace
 
 template <std::size_t N>
 bool is_folded_under(const Background& surface, const SurfaceNormals& normals, const Corners<N>& p, Index hint,
                      std::span<const char> unsure) {
-  Vector3d centre = Vector3d::Zero();
-  for (const Vector3d& corner : p) centre += corner / double(N);
   std::set<Index> near;
   const auto add = [&](const Vector3d& point) {
     const Index t = normals.closest(point, hint).triangle;
@@ -179,8 +189,7 @@ bool is_folded_under(const Background& surface, const SurfaceNormals& normals, c
       if (surface.neighbour(t, i) != kNone) near.insert(surface.neighbour(t, i));
   };
   const auto is_unsure = [&](Index t) { return !unsure.empty() && unsure[t]; };
-  add(centre);
-  for (const Vector3d& corner : p) add(corner + 0.25 * (centre - corner));
+  for (const Vector3d& point : points_inside(p)) add(point);
   return std::any_of(near.begin(), near.end(), [&](Index t) {
     for (int i = 0; i < 3 && !is_unsure(t); ++i)
       if (const Index other = surface.neighbour(t, i);
@@ -198,18 +207,14 @@ template bool is_folded_under(const Background&, const SurfaceNormals&, const Co
 template <std::size_t N>
 bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
   if (unsure.empty()) return false;
-  Vector3d centre = Vector3d::Zero();
-  for (const Vector3d& corner : p) centre += corner / double(N);
-  const auto is_unsure = [&](const Vector3d& point) {
+  const std::vector<Vector3d> points = points_inside(p);
+  return std::any_of(points.begin(), points.end(), [&](const Vector3d& point) {
     const Index t = result.normals().closest(point, result.triangle(element)).triangle;
     bool found = unsure[t];
     for (int i = 0; i < 3; ++i)
       if (const Index other = result.surface().neighbour(t, i); other != kNone) found = found || unsure[other];
     return found;
-  };
-  return is_unsure(centre) || std::any_of(p.begin(), p.end(), [&](const Vector3d& corner) {
-           return is_unsure(corner + 0.25 * (centre - corner));
-         });
+  });
 }
 
 template bool is_on_unsure_ground(const Result&, Index, const Corners<3>&, std::span<const char>);
@@ -231,9 +236,10 @@ std::vector<char> bad_elements(const Patch& patch) {
 
 std::vector<char> unsure_ground(const Patch& patch) {
   if (patch.quads.empty()) return {};
+  const std::vector<char> is_bad = bad_elements(patch);
+  if (!is_any(is_bad)) return {};
   std::vector<char> unsure;
-  for (const char bad : bad_elements(patch))
-    unsure.insert(unsure.end(), unsure.size() < patch.triangles.size() ? 1 : 2, bad);
+  for (const char bad : is_bad) unsure.insert(unsure.end(), unsure.size() < patch.triangles.size() ? 1 : 2, bad);
   return unsure;
 }
 
@@ -245,9 +251,8 @@ std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after) {
 
 std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept, double beside) {
   const Result result(before, after);
-  std::vector<char> unsure = unsure_ground(before);
   const bool are_free = kept == 0 && !before.quads.empty();
-  if (!are_free) unsure.clear();
+  const std::vector<char> unsure = are_free ? unsure_ground(before) : std::vector<char>();
   Ground ground{result, unsure, beside};
   const auto halves = are_free ? Reference::other_halves(before) : std::vector<Background::Triangle>();
   std::optional<TriangleTree> other_halves;

@@ -25,7 +25,7 @@ bool is_folded_under(const Background& surface, const SurfaceNormals& normals, c
 std::vector<char> bad_elements(const Patch& patch);
 
 /// By triangle of Reference::with_halves(patch): whether it is, or is half of, one of bad_elements(). Where elements
-/// are free to change that is a fault of the mesh, and no fold of the surface that it stands for. Empty without quads.
+/// are free to change that is a fault of the mesh, and no fold of the surface that it stands for. Empty if none is.
 std::vector<char> unsure_ground(const Patch& patch);
 
 /// Whether such triangles are part of what says which way is up for an element of a result.

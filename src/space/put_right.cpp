@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "space/put_right.hpp"
 
-#include <algorithm>
 #include <numeric>
 #include <vector>
 
+#include "kernel/is_any.hpp"
 #include "space/element_sides.hpp"
 #include "space/faults.hpp"
 #include "space/result.hpp"
@@ -69,10 +69,6 @@ class Spreading {
   std::vector<char> is_free_;
   std::vector<std::vector<Index>> neighbours_;  ///< by node; of free ones, each once
 };
-
-bool is_any(const std::vector<char>& marks) {
-  return std::any_of(marks.begin(), marks.end(), [](char mark) { return mark != 0; });
-}
 
 }  // namespace
 

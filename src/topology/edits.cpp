@@ -55,6 +55,11 @@ Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v) {
   return sum / count;
 }
 
+void spread(kernel::Mesh& mesh, std::span<const Index> nodes, int sweeps) {
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (Index v : nodes) mesh.set_point(v, middle_of_neighbours(mesh, v));
+}
+
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f) {
   std::vector<Index> nodes;
   nodes.reserve(mesh.degree(f));

@@ -3,6 +3,8 @@
 /// Edits of a quad mesh that several stages use; each is made of the kernel's.
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "kernel/mesh.hpp"
 
@@ -45,6 +47,10 @@ std::uint64_t connectivity(const kernel::Mesh& mesh);
 
 /// Mean of the nodes that edges join v with.
 Vec2 middle_of_neighbours(const kernel::Mesh& mesh, Index v);
+
+/// Moves each of these nodes there, one after the other, so many times over: a guess of where new nodes are becomes a
+/// better one.
+void spread(kernel::Mesh& mesh, std::span<const Index> nodes, int sweeps);
 
 /// Nodes of a face, counter-clockwise.
 std::vector<Index> nodes_of(const kernel::Mesh& mesh, Index f);
