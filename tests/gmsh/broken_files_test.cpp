@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <sstream>
@@ -100,6 +101,7 @@ std::string version_4(bool binary, const Wrong& wrong) {
 
 /// "" if the file is taken.
 std::string complaint(const TemporaryDirectory& directory, const std::string& data) {
+  std::filesystem::remove(directory / "in.msh");  // some file systems wait for the disk when a file is cut to nothing
   write_file(directory / "in.msh", data);
   try {
     adapter::check_msh_file(directory / "in.msh", adapter::read_msh_header(directory / "in.msh"));

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/mixed_bits.hpp"
+
 namespace qmorph::canonical {
 namespace {
 
@@ -146,14 +148,6 @@ void keep_largest(std::vector<Frame>& frames, const Moments& moments, const Powe
   frames.resize(kept);
 }
 
-/// Mixes the bits of a number so that sums of mixed numbers tell which they were [Steele14].
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
-
 /// A number for the surface's coordinates in a frame that does not depend on how nodes and elements are numbered, nor
 /// on which way elements run round, nor on powers of two in scale.
 std::uint64_t fingerprint(const Patch& patch, const Frame& frame, double size) {
@@ -163,17 +157,17 @@ std::uint64_t fingerprint(const Patch& patch, const Frame& frame, double size) {
   for (const Vector3d& point : patch.points) {
     const Vector3d p = frame.to_own(point) / unit;
     std::uint64_t node = 0;
-    for (Eigen::Index i = 0; i < 3; ++i) node = mixed(node ^ std::bit_cast<std::uint64_t>(p[i]));
+    for (Eigen::Index i = 0; i < 3; ++i) node = mixed_bits(node ^ std::bit_cast<std::uint64_t>(p[i]));
     nodes.push_back(node);
   }
   std::uint64_t all = 0;
   for_each_element(patch, [&](const auto& element) {
     std::uint64_t sum = 0;
     for (Index v : element) sum += nodes[v];
-    all += mixed(sum);
+    all += mixed_bits(sum);
   });
-  for (const auto& [a, b] : patch.constraints) all += mixed(mixed(nodes[a] + nodes[b]));
-  for (Index v : patch.fixed) all += mixed(mixed(nodes[v]));
+  for (const auto& [a, b] : patch.constraints) all += mixed_bits(mixed_bits(nodes[a] + nodes[b]));
+  for (Index v : patch.fixed) all += mixed_bits(mixed_bits(nodes[v]));
   return all;
 }
 

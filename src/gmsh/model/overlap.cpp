@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "geometry/mixed_bits.hpp"
 #include "geometry/predicates.hpp"
 
 namespace qmorph::adapter {
@@ -96,13 +96,6 @@ std::vector<std::vector<Sheet>> group_by_plane(const std::vector<Sheet>& sheets,
   return groups;
 }
 
-/// A number for a row that does not cancel with those of others by chance, as 2 ^ 3 ^ 4 ^ 5 does.
-Index mark_of(Index row) {
-  std::uint64_t mark = (std::uint64_t(row) + 1) * 0x9e3779b97f4a7c15u;
-  mark = (mark ^ (mark >> 30)) * 0xbf58476d1ce4e5b9u;
-  return Index(mark >> 32);
-}
-
 /// Edges with one element. Inside a mesh each neighbour of a node comes twice, once on either side of the edge between
 /// them, and the marks of all cancel; so edges have to be compared only where they do not.
 std::vector<OutlineEdge> find_outline(const ModelMesh& mesh, const std::vector<Sheet>& group,
@@ -114,7 +107,7 @@ std::vector<OutlineEdge> find_outline(const ModelMesh& mesh, const std::vector<S
   for (const Sheet& sheet : group)
     for_each_element(mesh, *sheet.entity, [&](const std::vector<Index>& rows) {
       for (std::size_t k = 0, n = rows.size(); k < n; ++k)
-        neighbours[rows[k]] ^= mark_of(rows[(k + 1) % n]) ^ mark_of(rows[(k + n - 1) % n]);
+        neighbours[rows[k]] ^= Index(mixed_bits(rows[(k + 1) % n]) ^ mixed_bits(rows[(k + n - 1) % n]));
     });
   std::vector<Candidate> candidates;
   for (const Sheet& sheet : group)
