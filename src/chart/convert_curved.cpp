@@ -103,40 +103,43 @@ SurfaceWork improve_as_it_is(const Patch& patch, const Options& options, Budget&
   return work_on_curved(halves, regions, options, Task::improve, budget, nullptr);
 }
 
-/// \throws SurfaceError for an element that is turned over
-void require_none_turned(const Patch& patch, const QuadMesh& mesh) {
-  if (patch.quads.empty()) return;
-  if (const auto defect = space::find_turned(patch, mesh))
+}  // namespace
+
+void require_none_turned(const Patch& patch, const QuadMesh& mesh, std::size_t kept) {
+  if (const auto defect = space::find_turned(patch, mesh, kept))
     throw SurfaceError(defect->what +
                            ", and no place was found for its nodes where it is not; mesh the surface anew "
                            "or repair it",
                        {.kind = ErrorKind::bad_element, .place = defect->place});
 }
 
-/// Nothing if no element is bad that could be put right, or what comes of it is not good.
-std::optional<SurfaceWork> improve_put_right(const Patch& patch, const Options& options, Budget& budget) {
-  const std::optional<Patch> right = patch.quads.empty() ? std::nullopt : space::put_right(patch);
+std::optional<SurfaceWork> work_put_right(const Patch& patch, std::size_t kept, const Options& options,
+                                          const CurvedWork& work) {
+  Patch held = patch;
+  for (std::size_t q = 0; q < kept; ++q)
+    held.fixed.insert(held.fixed.end(), patch.quads[q].begin(), patch.quads[q].end());
+  std::optional<Patch> right = space::put_right(held, options.crease_angle);
   if (!right) return {};
+  right->fixed = patch.fixed;
   try {
-    SurfaceWork work = improve_as_it_is(*right, options, budget);
-    QuadMesh& mesh = work.conversion.mesh;
-    require_none_turned(*right, mesh);
+    SurfaceWork result = work(*right);
+    QuadMesh& mesh = result.conversion.mesh;
+    require_none_turned(*right, mesh, kept);
     space::lay_onto(patch, mesh);
-    require_none_turned(patch, mesh);
-    if (!work.record.stages.empty()) work.record.stages.back() = mesh;
-    return work;
+    require_none_turned(patch, mesh, kept);
+    if (!result.record.stages.empty()) result.record.stages.back() = mesh;
+    return result;
   } catch (const SurfaceError&) {
     return {};
   }
 }
 
-}  // namespace
-
 SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& budget) {
-  if (auto work = improve_put_right(patch, options, budget)) return std::move(*work);
-  SurfaceWork work = improve_as_it_is(patch, options, budget);
-  require_none_turned(patch, work.conversion.mesh);
-  return work;
+  const auto work = [&](const Patch& one) { return improve_as_it_is(one, options, budget); };
+  if (auto result = work_put_right(patch, 0, options, work)) return std::move(*result);
+  SurfaceWork result = work(patch);
+  require_none_turned(patch, result.conversion.mesh, 0);
+  return result;
 }
 
 }  // namespace qmorph::chart

@@ -2,6 +2,7 @@
 #include "qmorph/convert.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 
 #include "chart/convert_curved.hpp"
@@ -13,6 +14,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
+#include "space/faults.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
@@ -114,14 +116,11 @@ bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
   return is_any;
 }
 
-}  // namespace
-
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
 /// layers around it are left to the front as well, and at last all of them.
-SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& budget) {
+SurfaceWork convert_with_layers(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
+                                Budget& budget) {
   constexpr int kTries = 2;
-  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, budget, nullptr);
-  const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
     const auto layers = layers::find_layers(patch, stuck, options.crease_angle);
@@ -141,6 +140,34 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& bu
     for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
   }
   return convert_triangles(patch, plane, options, budget, nullptr);
+}
+
+/// Where triangles of a curved surface are turned over among their neighbours, quads that are good by these very triangles
+/// are so, too. Then, and where no valid quads are found, the nodes of such triangles are put right first.
+SurfaceWork convert_curved_patch(const Patch& patch, const Options& options, Budget& budget) {
+  const auto work = [&](const Patch& one) { return convert_with_layers(one, {}, options, budget); };
+  const std::size_t kept = patch.quads.size();
+  std::optional<SurfaceWork> as_it_is;
+  std::exception_ptr failure;
+  try {
+    as_it_is = work(patch);
+    if (!space::has_suspects(patch, as_it_is->conversion.mesh, kept)) return std::move(*as_it_is);
+  } catch (const SurfaceError& error) {
+    if (error.kind() != ErrorKind::no_valid_mesh) throw;
+    failure = std::current_exception();
+  }
+  if (auto put_right = chart::work_put_right(patch, kept, options, work)) return std::move(*put_right);
+  if (failure) std::rethrow_exception(failure);
+  chart::require_none_turned(patch, as_it_is->conversion.mesh, kept);
+  return std::move(*as_it_is);
+}
+
+}  // namespace
+
+SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& budget) {
+  if (patch.triangles.empty()) return convert_triangles(patch, {}, options, budget, nullptr);
+  const std::optional<Plane> plane = find_plane(patch);
+  return plane ? convert_with_layers(patch, plane, options, budget) : convert_curved_patch(patch, options, budget);
 }
 
 Conversion convert(const Patch& patch, const Options& options) { return work_on_patch(patch, options, convert_patch); }

@@ -104,12 +104,15 @@ struct Suspect {
   bool has_bad_corner;  ///< else it lies back over a neighbour, as it may where the surface does
 };
 
-std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after) {
+/// Among all but the first `kept` quads.
+std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after, std::size_t kept) {
   const auto constraints = kept_constraints(before, after);
   const Neighbourhood elements(after.points, after.triangles, after.quads, constraints);
   std::vector<Suspect> suspects;
   for (Index e = 0; e < elements.elements(); ++e)
-    if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0)
+    if (e >= after.triangles.size() && e < after.triangles.size() + kept)
+      continue;
+    else if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0)
       suspects.push_back({e, is_bad});
   return suspects;
 }
@@ -234,8 +237,9 @@ std::vector<char> bad_elements(const Patch& patch) {
   return bad;
 }
 
-std::vector<char> unsure_ground(const Patch& patch) {
-  if (patch.quads.empty()) return {};
+namespace {
+
+std::vector<char> on_bad_elements(const Patch& patch) {
   const std::vector<char> is_bad = bad_elements(patch);
   if (!is_any(is_bad)) return {};
   std::vector<char> unsure;
@@ -243,10 +247,20 @@ std::vector<char> unsure_ground(const Patch& patch) {
   return unsure;
 }
 
-std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after) {
-  const std::vector<Suspect> suspects = find_suspects(before, after);
+}  // namespace
+
+std::vector<char> unsure_ground(const Patch& patch) {
+  return patch.quads.empty() ? std::vector<char>() : on_bad_elements(patch);
+}
+
+bool has_suspects(const Patch& before, const QuadMesh& after, std::size_t kept) {
+  return !find_suspects(before, after, kept).empty();
+}
+
+std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept) {
+  const std::vector<Suspect> suspects = find_suspects(before, after, kept);
   if (suspects.empty()) return {};
-  return find_turned(Result(before, after), suspects, unsure_ground(before));
+  return find_turned(Result(before, after), suspects, on_bad_elements(before));
 }
 
 std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept, double beside) {
@@ -263,7 +277,7 @@ std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, st
   for (Index q = Index(kept); q < after.quads.size(); ++q)
     if (auto defect = look_at(ground, triangles + q, after.quads[q])) return defect;
   if (are_free)
-    if (auto defect = find_turned(result, find_suspects(before, after), unsure)) return defect;
+    if (auto defect = find_turned(result, find_suspects(before, after, kept), unsure)) return defect;
   if (characteristic(before.points.size(), before.triangles, before.quads) !=
       characteristic(after.points.size(), after.triangles, after.quads))
     return Defect{"a handle or a hole has come or gone", {}};

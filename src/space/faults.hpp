@@ -33,8 +33,11 @@ template <std::size_t N>
 bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure);
 
 /// An element that is turned over among its neighbours or lies back over one, where the patch itself is not folded: the
-/// surface's normals cannot tell where the patch has such elements itself, and its quads were free to change.
-std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after);
+/// surface's normals cannot tell where the patch has such elements itself. Not one of the first `kept` quads.
+std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept = 0);
+
+/// Whether there is an element that find_turned() has to look at more closely.
+bool has_suspects(const Patch& before, const QuadMesh& after, std::size_t kept);
 
 /// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned
 /// over (not those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "space/put_right.hpp"
 
+#include <cmath>
 #include <numeric>
 #include <vector>
 
 #include "kernel/is_any.hpp"
 #include "space/element_sides.hpp"
 #include "space/faults.hpp"
+#include "space/mesh_normals.hpp"
 #include "space/result.hpp"
 
 namespace qmorph::space {
@@ -16,9 +18,10 @@ using Eigen::Vector3d;
 
 class Spreading {
  public:
-  explicit Spreading(const Patch& patch)
+  Spreading(const Patch& patch, const std::vector<char>& bad, double crease_angle)
       : patch_(patch),
         sides_(patch.points.size(), patch.triangles, patch.quads, patch.constraints),
+        normals_(patch.points, sides_),
         is_free_(patch.points.size(), 1),
         neighbours_(patch.points.size()) {
     for (Index v : patch.fixed) is_free_[v] = 0;
@@ -26,7 +29,7 @@ class Spreading {
       if (sides_.node(side) == kNone) continue;
       const Index a = sides_.node(side), b = sides_.target(side);
       neighbours_[a].push_back(b);
-      if (sides_.opposite(side) == kNone) is_free_[a] = is_free_[b] = 0;
+      if (is_held(side, bad, std::cos(crease_angle))) is_free_[a] = is_free_[b] = 0;
     }
   }
 
@@ -49,6 +52,14 @@ class Spreading {
   }
 
  private:
+  /// Not inside, or along a crease.
+  bool is_held(Index side, const std::vector<char>& bad, double least_cosine) const {
+    const Index opposite = sides_.opposite(side);
+    if (opposite == kNone) return true;
+    if (bad[side / 4] || bad[opposite / 4]) return false;
+    return normals_.own(side / 4).dot(normals_.own(opposite / 4)) < least_cosine;
+  }
+
   /// Those that are free, in their order.
   std::vector<Index> nodes_around(std::vector<char> elements, int rings) const {
     std::vector<char> is_near(patch_.points.size(), 0);
@@ -66,16 +77,17 @@ class Spreading {
 
   const Patch& patch_;
   const ElementSides sides_;
+  const MeshNormals normals_;
   std::vector<char> is_free_;
   std::vector<std::vector<Index>> neighbours_;  ///< by node; of free ones, each once
 };
 
 }  // namespace
 
-std::optional<Patch> put_right(const Patch& patch) {
+std::optional<Patch> put_right(const Patch& patch, double crease_angle) {
   const std::vector<char> bad = bad_elements(patch);
   if (!is_any(bad)) return {};
-  const Spreading spreading(patch);
+  const Spreading spreading(patch, bad, crease_angle);
   for (const int rings : {0, 1, 3})
     if (Patch moved = spreading.run(bad, rings); !is_any(bad_elements(moved))) return moved;
   return {};

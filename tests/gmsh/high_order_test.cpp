@@ -116,6 +116,29 @@ TEST_CASE("high order: an order that the script asks for") {
   CHECK(types_of(read_snapshot(directory / "in.msh"), 1).count(kQuad9) == 1);
 }
 
+TEST_CASE("high order: nodes keep their tags where the order of a mesh is raised or lowered") {
+  const TemporaryDirectory directory;
+  int from = 1, to = 2;
+  SUBCASE("raised") {}
+  SUBCASE("lowered") { std::swap(from, to); }
+  make_msh(directory / "in.msh", 4.1, false, [&] {
+    build_two_squares();
+    ::gmsh::model::mesh::setOrder(from);
+  });
+  CHECK(run_qmorph({directory / "in.msh", "-order", std::to_string(to), "-o", directory / "out.msh"}).status == 0);
+  const Snapshot before = read_snapshot(directory / "in.msh"), after = read_snapshot(directory / "out.msh");
+  const auto ends_of_lines = [](const Snapshot& snapshot) {
+    std::map<std::pair<int, std::size_t>, Eigen::Vector3d> ends;  // by curve and node
+    for (const auto& entity : snapshot.mesh.entities)
+      for (const auto& block : entity.blocks)
+        for (std::size_t i = 0; i < block.nodes.size(); ++i)
+          if (entity.dim <= 1 && i % block.nodes_per_element < block.corners)
+            ends[{entity.tag, block.nodes[i]}] = snapshot.mesh.points[snapshot.mesh.rows.find(block.nodes[i])];
+    return ends;
+  };
+  CHECK(ends_of_lines(before) == ends_of_lines(after));
+}
+
 TEST_CASE("high order: a curved side of the input that inverts a quad, as it did a triangle, is told of") {
   const TemporaryDirectory directory;
   // The lower side leaves its first corner to the left of the side behind it.

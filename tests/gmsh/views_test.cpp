@@ -196,7 +196,7 @@ TEST_CASE("views: nodes that a higher order adds have data too") {
   CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "-order", "2"}).status == 0);
   const adapter::MeshData data = read_data(directory / "out.msh");
   check_view(data, kTemperature);
-  check_view(data, kMaterial, false);
+  check_view(data, kMaterial);
 }
 
 TEST_CASE("views: on a curved surface, new nodes have the data of the side that they are on") {

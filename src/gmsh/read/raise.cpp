@@ -16,8 +16,9 @@
 namespace qmorph::adapter {
 namespace {
 
-/// \return warnings of Gmsh. \throws InputError
+/// Nodes that were there keep their tags. \return warnings of Gmsh. \throws InputError
 std::vector<std::string> set_order(int order, bool optimize) {
+  const ScopedOption keep("Mesh.Renumber", 0);
   const StageLog log = run_logged([&] {
     ::gmsh::model::mesh::setOrder(order);
     if (optimize) ::gmsh::model::mesh::optimize("HighOrder");

@@ -39,6 +39,7 @@ class Carrier {
   Vector3d centre(const NewElement& element) const;
   void find_new_nodes();
   void find_new_elements();
+  void find_renumbered();
   std::vector<double> shape_functions(const ElementPlace& place);
   Values interpolate(const ElementPlace& place, const std::vector<const double*>& at_nodes, int components);
   NodeValues values_at_nodes(const ElementPlace& place, const ViewStep& step) const;
@@ -52,7 +53,9 @@ class Carrier {
   std::vector<std::pair<Index, const EntityMesh*>> new_nodes_;  ///< rows of `mesh_`
   std::vector<NewElement> new_elements_;
   std::vector<std::size_t> kept_nodes_, kept_elements_;  ///< tags, in order
-  std::map<int, std::vector<Vector3d>> local_corners_;   ///< of element types
+  /// New and old tags of elements of curves and volumes that Gmsh has given another order, and with it another number.
+  std::vector<std::pair<std::size_t, std::size_t>> renumbered_;
+  std::map<int, std::vector<Vector3d>> local_corners_;  ///< of element types
 };
 
 const ElementLocator* Carrier::locator(int surface) {
@@ -117,6 +120,27 @@ void Carrier::find_new_elements() {
           new_elements_.push_back({&entity, &block, e});
       }
   std::sort(kept_elements_.begin(), kept_elements_.end());
+  find_renumbered();
+}
+
+void Carrier::find_renumbered() {
+  const auto for_each_element = [](const ModelMesh& mesh, const auto& take) {
+    for (const EntityMesh& entity : mesh.entities)
+      for (const ElementBlock& block : entity.blocks)
+        for (std::size_t e = 0; entity.dim % 2 == 1 && e < block.tags.size(); ++e) {
+          const auto first = block.nodes.begin() + std::ptrdiff_t(e * block.nodes_per_element);
+          take(std::pair(entity.dim, std::vector<std::size_t>(first, first + std::ptrdiff_t(block.corners))),
+               block.tags[e]);
+        }
+  };
+  std::map<std::pair<int, std::vector<std::size_t>>, std::size_t> now;
+  for_each_element(mesh_, [&](auto corners, std::size_t tag) {
+    if (!std::binary_search(kept_elements_.begin(), kept_elements_.end(), tag)) now.emplace(std::move(corners), tag);
+  });
+  if (now.empty()) return;
+  for_each_element(old_, [&](const auto& corners, std::size_t tag) {
+    if (const auto found = now.find(corners); found != now.end()) renumbered_.emplace_back(found->second, tag);
+  });
 }
 
 std::vector<double> Carrier::shape_functions(const ElementPlace& place) {
@@ -202,6 +226,11 @@ void Carrier::carry_to_elements(const ViewStep& step, ViewStep& carried) {
   for (std::size_t element : kept_elements_)
     if (const auto* values = step.find(element)) {
       carried.tags.push_back(element);
+      carried.values.push_back(*values);
+    }
+  for (const auto& [now, before] : renumbered_)
+    if (const auto* values = step.find(before); values && step.kind == "ElementData") {
+      carried.tags.push_back(now);
       carried.values.push_back(*values);
     }
   for (const NewElement& element : new_elements_)
