@@ -28,19 +28,22 @@ kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Option
   return convert_region(region, plane, options, budget, report, record);
 }
 
-/// With rounded coordinates; nothing where they are not to be rounded, or where an element would be bad without that.
-std::optional<kernel::Mesh> convert_rounded(const Region& region, const Plane& plane, const Options& options,
-                                            Budget& budget, ConversionReport& report, Record& record) {
-  const auto rounded = canonical::rounded(region, plane);
-  if (!rounded) return {};
+/// With rounded coordinates, which the region has meanwhile; nothing where they are not to be rounded, or where an
+/// element would be bad without that.
+std::optional<kernel::Mesh> convert_rounded(Region& region, const Plane& plane, const Options& options, Budget& budget,
+                                            ConversionReport& report, Record& record) {
+  auto rounding = canonical::round_points(region, plane);
+  if (!rounding) return {};
+  std::optional<kernel::Mesh> mesh;
   try {
-    kernel::Mesh mesh = convert_flat(rounded->region, rounded->plane, options, budget, report, record);
-    canonical::put_back(mesh, *rounded, region);
+    mesh = convert_flat(region, rounding->plane, options, budget, report, record);
+    canonical::put_back(*mesh, *rounding, region);
     for (auto& stage : record.stages)
-      if (stage) canonical::put_back(*stage, *rounded, region);
-    if (!find_fault(mesh, region, plane)) return mesh;
+      if (stage) canonical::put_back(*stage, *rounding, region);
   } catch (const SurfaceError&) {
   }
+  region.points = std::move(rounding->exact);
+  if (mesh && !find_fault(*mesh, region, plane)) return mesh;
   report = {};
   record = {};
   return {};
@@ -52,13 +55,13 @@ SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& pl
                               Budget& budget, std::vector<bool>* stuck) {
   if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
   if (!plane) return chart::convert_curved(patch, options, budget, stuck);
-  const Surface surface(patch, *plane);
+  Surface surface(patch, *plane);
   require_no_overlap(surface.regions, surface.plane);
   std::vector<char> is_stuck(surface.regions.size(), false), is_converted = is_stuck;
   const auto work = [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report,
                         Record& record) {
     try {
-      const Region& region = surface.regions[r];
+      Region& region = surface.regions[r];
       auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record);
       if (!mesh) mesh = convert_flat(region, surface.plane, own, budget_of_region, report, record);
       is_converted[r] = true, is_stuck[r] = false;

@@ -148,14 +148,18 @@ TEST_CASE("canonical: coordinates are rounded from the corner of the box, and co
   region.triangles = {{0, 1, 2}};
   region.open = {true, true, true};
   Plane plane;
-  const auto rounded = canonical::rounded(region, plane);
-  REQUIRE(rounded);
-  Region there = region;
+  Region here = region, there = region;
   for (Vec2& p : there.points) p += Vec2(1000, -77);
-  CHECK(canonical::rounded(there, plane)->region.points == rounded->region.points);
-  kernel::Mesh mesh(rounded->region.points, region.triangles, region.open);
-  canonical::put_back(mesh, *rounded, region);
+  const auto rounding = canonical::round_points(here, plane);
+  REQUIRE(rounding);
+  CHECK(rounding->exact == region.points);
+  REQUIRE(canonical::round_points(there, plane));
+  CHECK(there.points == here.points);
+  kernel::Mesh mesh(here.points, here.triangles, here.open);
+  canonical::put_back(mesh, *rounding, here);
   for (Index v = 0; v < 3; ++v) CHECK(mesh.point(v) == region.points[v]);
   region.points[2] = {0.7, 0.15 + 1e-6};
-  CHECK_FALSE(canonical::rounded(region, plane));
+  const std::vector<Vec2> as_they_were = region.points;
+  CHECK_FALSE(canonical::round_points(region, plane));
+  CHECK(region.points == as_they_were);
 }

@@ -20,7 +20,7 @@ bool is_higher(const Vec2& a, const Vec2& b, const Vec2& c, double height) {
 
 }  // namespace
 
-std::optional<Rounded> rounded(const Region& region, const Plane& plane) {
+std::optional<Rounding> round_points(Region& region, const Plane& plane) {
   constexpr double kWhole = 0x1p52;  // from here on the spacing of numbers is 1
   Vec2 low = region.points.at(0), high = low;
   for (const Vec2& p : region.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -29,18 +29,18 @@ std::optional<Rounded> rounded(const Region& region, const Plane& plane) {
     return !is_higher(region.points[t[0]], region.points[t[1]], region.points[t[2]], kLeastHeight * step);
   };
   if (!std::isnormal(step) || std::any_of(region.triangles.begin(), region.triangles.end(), is_too_small)) return {};
-  Rounded result{region, plane, low};
+  Rounding result{region.points, plane, low};
   result.plane.origin = plane.on_plane(low);
   const Vec2 whole = Vec2::Constant(kWhole);
-  for (Vec2& p : result.region.points) p = (((p - low) / step + whole) - whole) * step;
+  for (Vec2& p : region.points) p = (((p - low) / step + whole) - whole) * step;
   return result;
 }
 
-void put_back(kernel::Mesh& mesh, const Rounded& from, const Region& region) {
+void put_back(kernel::Mesh& mesh, const Rounding& rounding, const Region& region) {
   for (Index v = 0; v < mesh.vertex_slots(); ++v) {
     if (!mesh.is_live_vertex(v)) continue;
-    const bool is_still = v < region.points.size() && mesh.point(v) == from.region.points[v];
-    mesh.set_point(v, is_still ? region.points[v] : Vec2(mesh.point(v) + from.corner));
+    const bool is_still = v < region.points.size() && mesh.point(v) == region.points[v];
+    mesh.set_point(v, is_still ? rounding.exact[v] : Vec2(mesh.point(v) + rounding.corner));
   }
 }
 

@@ -7,19 +7,20 @@
 
 namespace qmorph::canonical {
 
-/// A region from the corner of its box on, its coordinates rounded to steps that are far smaller than its triangles,
-/// but far larger than what a computer rounds: a surface that is moved becomes the same quads, nearly always. Else
-/// noise would decide where edges are equally long.
-struct Rounded {
-  Region region;
-  Plane plane;  ///< has its origin in the corner
+/// What belongs to a region whose coordinates were rounded.
+struct Rounding {
+  std::vector<Vec2> exact;  ///< the region's points as they were
+  Plane plane;              ///< has its origin in the corner of the region's box
   Vec2 corner = Vec2::Zero();
 };
 
-/// Nothing where a triangle is too small for that.
-std::optional<Rounded> rounded(const Region& region, const Plane& plane);
+/// Moves the region's points so that the corner of their box is the origin, and rounds them to steps that are far
+/// smaller than the triangles, but far larger than what a computer rounds: a surface that is moved becomes the same
+/// quads, nearly always. Else noise would decide where edges are equally long.
+/// \return nothing, and the points are as they were, where a triangle is too small for that
+std::optional<Rounding> round_points(Region& region, const Plane& plane);
 
-/// Nodes that did not move get the coordinates of `region`, the others come along.
-void put_back(kernel::Mesh& mesh, const Rounded& from, const Region& region);
+/// Nodes of the rounded region that did not move get their exact coordinates, the others come along.
+void put_back(kernel::Mesh& mesh, const Rounding& rounding, const Region& region);
 
 }  // namespace qmorph::canonical

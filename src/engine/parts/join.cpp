@@ -134,15 +134,19 @@ PartElements::PartElements(const std::vector<Index>& node, const Mesh& mesh) {
   }
 }
 
-Mesh join(const Whole& whole, const std::vector<PartElements>& parts) {
-  std::vector<Vec2> points = whole.points;
+Mesh join(Whole whole, std::vector<PartElements> parts) {
+  std::vector<Vec2> points = std::move(whole.points);
   std::vector<std::array<Index, 4>> faces;
-  std::size_t count = 0;
-  for (const PartElements& part : parts) count += part.faces.size();
+  std::size_t count = 0, new_points = 0;
+  for (const PartElements& part : parts) {
+    count += part.faces.size();
+    new_points += std::size_t(std::count(part.vertex.begin(), part.vertex.end(), kNone));
+  }
+  points.reserve(points.size() + new_points);
   faces.reserve(count);
   std::vector<bool> open(4 * count, false);
-  for (const PartElements& part : parts) {
-    std::vector<Index> vertex = part.vertex;
+  for (PartElements& part : parts) {
+    std::vector<Index> vertex = std::move(part.vertex);
     for (std::size_t i = 0; i < vertex.size(); ++i) {
       if (vertex[i] == kNone) vertex[i] = Index(points.size()), points.emplace_back();
       points[vertex[i]] = part.points[i];
@@ -159,6 +163,7 @@ Mesh join(const Whole& whole, const std::vector<PartElements>& parts) {
         if (corner != kNone) corner = vertex[corner];
       faces.push_back(face);
     }
+    part = {};
   }
   Mesh mesh(points, faces, open);
   for (Index v : whole.fixed) mesh.set_fixed(v);

@@ -33,6 +33,6 @@ struct Whole {
 
 /// The parts' elements as one mesh. Vertices of the divided mesh keep their numbers. A node on an interface may have
 /// two neighbours only.
-kernel::Mesh join(const Whole& whole, const std::vector<PartElements>& parts);
+kernel::Mesh join(Whole whole, std::vector<PartElements> parts);
 
 }  // namespace qmorph
