@@ -17,8 +17,8 @@ namespace {
 
 /// What an attempt costs however small the region is.
 constexpr std::size_t kWorkPerAttempt = 200;
-/// Of a triangle that is added where a fan is graded.
-constexpr std::size_t kWorkToGrade = 100;
+/// Of a triangle that is added where a fan is graded, with what the front costs there.
+constexpr std::size_t kWorkToGrade = 210;
 /// Irregular nodes that a cavity grows to in a try, until it is known to be the best.
 constexpr int kQuickNodes = 1;
 

@@ -28,7 +28,7 @@ double length_of(const Sides& sides, Index c) { return (sides.point(sides.to(c))
 }  // namespace
 
 bool is_convex(const Cell& cell) {
-  constexpr double kSharpest = 12 * std::numbers::pi / 180;
+  constexpr double kSharpest = 4 * std::numbers::pi / 180;
   const auto [least, most] = std::minmax_element(cell.angles.begin(), cell.angles.end());
   return *least >= kSharpest && *most <= std::numbers::pi - kSharpest;
 }

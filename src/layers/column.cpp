@@ -12,9 +12,8 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi, kRight = kPi / 2, kDegree = kPi / 180;
 
-/// Heights of cells on top of one another do not differ by a larger factor than the first; those of nearly isotropic
-/// cells not by more than the second.
-constexpr double kJump = 4, kNearJump = 2.2;
+/// Heights of nearly isotropic cells on top of one another do not differ by a larger factor (see kJump).
+constexpr double kNearJump = 2.2;
 /// By how much cells near to isotropic may be off what is expected, and the column's middle line off its direction.
 constexpr double kNearMisfit = 20 * kDegree;
 /// Cells higher than so many times their length belong to other columns.

@@ -40,6 +40,8 @@ bool goes_on(const Sides& sides, const Column& column, const Cell& cell, bool is
 
 /// Cells that are not longer than that times their height are near to isotropic.
 inline constexpr double kNearIsotropic = 2;
+/// Heights of cells on top of one another do not differ by a larger factor.
+inline constexpr double kJump = 4;
 /// By how much a corner may be off what is expected, and how much beside a cell that is taken.
 inline constexpr double kMisfit = 30 * std::numbers::pi / 180, kMisfitBeside = 40 * std::numbers::pi / 180;
 

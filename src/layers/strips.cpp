@@ -133,11 +133,19 @@ class Strips {
     bool is_decided = false;
   };
 
-  /// From a triangle across one of its long sides, to another one.
+  /// From a triangle across one of its long sides, to another one that is about as high.
   bool is_link(Index c) const {
     if (c == short_[c / 3] || sides_.is_wall(c)) return false;
-    const Index other = sides_.opposite(c);
-    return short_[other / 3] != kNone && other != short_[other / 3];
+    const Index other = sides_.opposite(c), its_short = short_[other / 3];
+    return its_short != kNone && other != its_short && are_alike(short_[c / 3], its_short);
+  }
+
+  /// In length, as sides of cells on top of one another are.
+  bool are_alike(Index c, Index d) const {
+    const auto squared = [&](Index side) {
+      return (sides_.point(sides_.to(side)) - sides_.point(sides_.from(side))).squaredNorm();
+    };
+    return squared(c) <= kJump * kJump * squared(d) && squared(d) <= kJump * kJump * squared(c);
   }
 
   /// Not to a wall, nor to a cell.

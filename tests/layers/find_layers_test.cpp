@@ -138,15 +138,18 @@ TEST_CASE("layers: heights may grow, double and differ from column to column") {
 }
 
 TEST_CASE("layers: round a sharp corner without a fan, the last cells of both walls slant to meet") {
-  constexpr double kHalf = 18 * std::numbers::pi / 180;  // of the wall's angle
-  const auto place = [](Index i, Index j) {
-    const double along = std::abs(double(i) - 4), side = i < 4 ? 1 : -1, height = 0.01 * (std::pow(1.5, j) - 1);
-    if (i == 4) return Vector3d(height, 0, 0);
-    return Vector3d(-along * std::cos(kHalf) + height * std::sin(kHalf),
-                    -side * (along * std::sin(kHalf) + height * std::cos(kHalf)), 0);
-  };
-  for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
-    CHECK(whole_cells(grid(8, 6, place, diagonals), 8, 6) == 48);
+  for (const double degrees : {18.0, 9.0, 6.0}) {
+    const double half = degrees * std::numbers::pi / 180;  // of the wall's angle
+    const auto place = [&](Index i, Index j) {
+      const double along = std::abs(double(i) - 4), side = i < 4 ? 1 : -1, height = 0.01 * (std::pow(1.5, j) - 1);
+      if (i == 4) return Vector3d(height, 0, 0);
+      return Vector3d(-along * std::cos(half) + height * std::sin(half),
+                      -side * (along * std::sin(half) + height * std::cos(half)), 0);
+    };
+    CAPTURE(degrees);
+    for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling, Diagonals::alternating})
+      CHECK(whole_cells(grid(8, 6, place, diagonals), 8, 6) == 48);
+  }
 }
 
 TEST_CASE("layers: rows of cells that are too short to begin a layer go on round the nose of a wall") {

@@ -123,6 +123,13 @@ TEST_CASE("layers: 300 random domains keep every row, and what is between layers
   CHECK(double(domains_with_cuts) < 0.4 * double(seeds(300)));
 }
 
+TEST_CASE("layers: a column keeps its rows where a large triangle lies beyond its last one") {
+  const LayeredDomain domain = layered_domain(1048);  // the column's last row and the triangle looked like a cell, too
+  const auto [mesh, report] = qmorph::convert(domain.patch);
+  const KeptLayers layers(mesh, report.layer_quads);
+  for (const Quad& quad : domain.quads) CHECK(layers.has(quad));
+}
+
 TEST_CASE("layers: nodes of layers stay where they are but at tips, in any position in space") {
   for (std::uint64_t seed = 0; seed < seeds(40); ++seed) {
     const LayeredDomain domain = layered_domain(seed);
