@@ -10,6 +10,11 @@
 
 namespace qmorph {
 
+class Judged;
+namespace space {
+class Result;
+}
+
 /// One kind of figure over many places.
 struct Spread {
   double mean = 0, p99 = 0, max = 0;
@@ -30,6 +35,8 @@ class QMORPH_API FidelityAccumulator {
  public:
   /// Adds a surface, if it is curved. Cost: linear.
   void add(const Patch& before, const QuadMesh& after);
+  /// For those inside the library who have found where the result is.
+  void add(Judged& judged);
   /// Adds a surface, flat or curved. `source` of the mesh may be all kNone; then the cost is n log n.
   void add_any(const Patch& before, const QuadMesh& after);
   void add(const FidelityAccumulator& other);
@@ -44,6 +51,8 @@ class QMORPH_API FidelityAccumulator {
     void add(const Values& other);
     Spread spread() const;
   };
+  void add_on(const Patch& before, const space::Result& result);
+
   Values node_, side_, centre_, back_, normal_deg_, warpage_deg_;
 };
 

@@ -20,6 +20,7 @@
 
 namespace qmorph {
 
+class Judged;
 struct Patch;
 struct QuadMesh;
 class Shapes;
@@ -88,6 +89,8 @@ class QMORPH_API QualityAccumulator {
   /// input's triangles near it, and of the whole element's, and the scaled Jacobian is the least of the corner sines in
   /// space. Where quads of the input are bad themselves, the normals are those of the elements around.
   void add(const Patch& before, const QuadMesh& after);
+  /// For those inside the library who have found where the result is.
+  void add(Judged& judged);
 
   /// Adds the surfaces that another one has collected.
   void add(const QualityAccumulator& other);

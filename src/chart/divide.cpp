@@ -74,7 +74,7 @@ class Dividing {
     std::unique_ptr<LaidOut> laid_out;  ///< with the piece; null if a glance was enough, and then the piece stays
   };
   Judged judge(Piece& piece) const {
-    if (settings_.at_a_glance && piece.faces.size() >= kVeryLarge && !has_tip(piece))
+    if (settings_.at_a_glance && piece.faces.size() >= kVeryLarge && !may_have_narrow_tip(piece))
       if (const auto distortion = coarse_distortion(piece))
         return {*distortion <= most_distortion(piece.faces.size()), nullptr};
     auto part = std::make_unique<LaidOut>(std::move(piece));

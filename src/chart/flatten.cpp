@@ -150,21 +150,28 @@ class Flattening2D {
   }
 
   void factorise() {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(9 * shapes_.size() + first_.size());
-    pulls_.reserve(3 * shapes_.size());
+    std::vector<double> weights, diagonal(points_.size(), 0);  // by side and by point
+    weights.reserve(3 * shapes_.size()), pulls_.reserve(3 * shapes_.size());
     for (Index t = 0; t < shapes_.size(); ++t)
       for (int i = 0; i < 3; ++i) {
         const double weight = 0.5 * cotangent(shapes_[t], i);
-        const int p = int(surface_.corners(t)[i]), q = int(surface_.corners(t)[(i + 1) % 3]);
-        entries.emplace_back(p, p, weight);
-        entries.emplace_back(q, q, weight);
-        entries.emplace_back(std::max(p, q), std::min(p, q), -weight);
+        weights.push_back(weight);
+        for (Index v : {surface_.corners(t)[i], surface_.corners(t)[(i + 1) % 3]}) diagonal[v] += weight;
         const Complex pull = weight * shapes_[t].side(i);
         pulls_.emplace_back(pull.real(), pull.imag());
       }
-    for (Index t : first_)
-      entries.emplace_back(int(surface_.corners(t)[0]), int(surface_.corners(t)[0]), 1);  // holds one point
+    for (Index t : first_) diagonal[surface_.corners(t)[0]] += 1;  // holds one point
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(points_.size() + 2 * shapes_.size());
+    for (Index v = 0; v < points_.size(); ++v) entries.emplace_back(int(v), int(v), diagonal[v]);
+    for (Index side = 0; side < weights.size(); ++side) {
+      const Index other = surface_.opposite(side);
+      if (other != kNone && other < side) continue;
+      const double weight = weights[side] + (other == kNone ? 0 : weights[other]);
+      const auto [low, high] =
+          std::minmax(surface_.corners(side / 3)[side % 3], surface_.corners(side / 3)[(side + 1) % 3]);
+      entries.emplace_back(int(high), int(low), -weight);
+    }
     Matrix matrix(Eigen::Index(points_.size()), Eigen::Index(points_.size()));
     matrix.setFromTriplets(entries.begin(), entries.end());
     solver_.compute(matrix);

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "chart/topology.hpp"
+#include "kernel/is_any.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 constexpr double kTip = 0.7;
 /// A corner with a smaller angle in the plane may become one quad.
 constexpr double kNarrow = 0.9 * std::numbers::pi;
+/// One with a larger angle in space is wider than that in every chart that is good.
+constexpr double kNarrowInSpace = 1.3 * std::numbers::pi;
 
 /// Where a path may end: the points of a loop, or a tip.
 struct Terminal {
@@ -116,10 +119,16 @@ std::vector<std::vector<Index>> opening_paths(const Piece& piece, const std::vec
   return paths;
 }
 
-bool has_tip(const Piece& piece) {
+bool may_have_narrow_tip(const Piece& piece) {
+  std::vector<char> is_tip(piece.points.size(), 0);
   for (const std::vector<Index>& loop : loops_of(piece))
     for (std::size_t k = 0; k < loop.size(); ++k)
-      if (piece.node[loop[(k + loop.size() - 1) % loop.size()]] == piece.node[loop[(k + 1) % loop.size()]]) return true;
+      if (piece.node[loop[(k + loop.size() - 1) % loop.size()]] == piece.node[loop[(k + 1) % loop.size()]])
+        is_tip[loop[k]] = 1;
+  if (!is_any(is_tip)) return false;
+  const std::vector<double> defects = angle_defects(piece);
+  for (Index v = 0; v < is_tip.size(); ++v)
+    if (is_tip[v] && std::numbers::pi - defects[v] < kNarrowInSpace) return true;
   return false;
 }
 

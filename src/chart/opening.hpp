@@ -8,8 +8,9 @@ namespace qmorph::chart {
 /// it is a disc. The longest loops come first. Each path is a list of points. `defects` as angle_defects(piece).
 std::vector<std::vector<Index>> opening_paths(const Piece& piece, const std::vector<double>& defects);
 
-/// Whether a boundary point has one node before and after it: the end of a cut, or of a line inside.
-bool has_tip(const Piece& piece);
+/// Whether a tip, a boundary point with one node before and after it, may be narrow in a chart, by the angles in space
+/// there: the end of a cut. The end of a line inside is not.
+bool may_have_narrow_tip(const Piece& piece);
 
 /// Where the corner of a tip is so narrow that one quad would fill it, that quad would have the node twice. A path that
 /// halves the first such corner; empty if there is none.

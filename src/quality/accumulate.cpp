@@ -6,6 +6,7 @@
 
 #include "qmorph/patch.hpp"
 #include "qmorph/quality.hpp"
+#include "quality/judged.hpp"
 #include "quality/percentile.hpp"
 #include "quality/shapes.hpp"
 #include "quality/valence.hpp"
@@ -100,7 +101,13 @@ void QualityAccumulator::add(std::span<const Vector3d> points, std::span<const s
 }
 
 void QualityAccumulator::add(const Patch& before, const QuadMesh& after) {
-  add_elements(after.points, after.triangles, after.quads, Shapes(before, after));
+  Judged judged(before, after);
+  add(judged);
+}
+
+void QualityAccumulator::add(Judged& judged) {
+  const QuadMesh& after = judged.after();
+  add_elements(after.points, after.triangles, after.quads, Shapes(judged));
 }
 
 void QualityAccumulator::add(const QualityAccumulator& other) {

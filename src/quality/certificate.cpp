@@ -7,13 +7,12 @@
 #include <optional>
 #include <set>
 
-#include "quality/shapes.hpp"
+#include "quality/judged.hpp"
 #include "space/closest_point.hpp"
 #include "space/corners.hpp"
 #include "space/creases.hpp"
 #include "space/element_sides.hpp"
 #include "space/faults.hpp"
-#include "space/result.hpp"
 
 namespace qmorph {
 namespace {
@@ -28,11 +27,12 @@ double distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
 
 class Explanation {
  public:
-  Explanation(const Patch& before, const QuadMesh& after, double crease_angle)
-      : before_(before),
-        after_(after),
-        is_curved_(!plane_normal(before).has_value()),
-        sides_(after.points.size(), after.triangles, after.quads, kept_edges(crease_angle)) {}
+  Explanation(Judged& judged, double crease_angle)
+      : judged_(judged),
+        before_(judged.before()),
+        after_(judged.after()),
+        is_curved_(!judged.plane()),
+        sides_(after_.points.size(), after_.triangles, after_.quads, kept_edges(crease_angle)) {}
 
   PoorBecause reason(Index quad) {
     const Index element = Index(after_.triangles.size()) + quad;
@@ -186,18 +186,18 @@ class Explanation {
 
   bool turns_sharply(Index quad, Index element) {
     if (!is_curved_) return false;
-    if (!result_) result_.emplace(before_, after_);
+    const space::Result& result = judged_.on_surface();
     Corners<4> p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = after_.points[after_.quads[quad][i]];
-    return space::is_folded_under(result_->surface(), result_->normals(), p, result_->triangle(element));
+    return space::is_folded_under(result.surface(), result.normals(), p, result.triangle(element));
   }
 
+  Judged& judged_;
   const Patch& before_;
   const QuadMesh& after_;
   const bool is_curved_;
   const space::ElementSides sides_;
-  std::vector<char> fixed_;              ///< by row of the patch's points
-  std::optional<space::Result> result_;  ///< only where it is needed
+  std::vector<char> fixed_;  ///< by row of the patch's points
 };
 
 }  // namespace
@@ -222,11 +222,18 @@ std::string_view name_of(PoorBecause reason) {
 
 std::vector<PoorQuad> explain_poor_quads(const Patch& before, const QuadMesh& after,
                                          std::span<const double> scaled_jacobians, double crease_angle) {
+  Judged judged(before, after);
+  return explain_poor_quads(judged, scaled_jacobians, crease_angle);
+}
+
+std::vector<PoorQuad> explain_poor_quads(Judged& judged, std::span<const double> scaled_jacobians,
+                                         double crease_angle) {
+  const QuadMesh& after = judged.after();
   std::vector<PoorQuad> poor;
   std::optional<Explanation> explanation;
   for (Index q = 0; q < after.quads.size(); ++q) {
     if (!(scaled_jacobians[q] < kPoorQuad)) continue;
-    if (!explanation) explanation.emplace(before, after, crease_angle);
+    if (!explanation) explanation.emplace(judged, crease_angle);
     Vector3d centre = Vector3d::Zero();
     for (Index v : after.quads[q]) centre += 0.25 * after.points[v];
     poor.push_back({q, scaled_jacobians[q], explanation->reason(q), centre});

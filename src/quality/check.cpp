@@ -11,6 +11,7 @@
 
 #include "geometry/describe.hpp"
 #include "geometry/predicates.hpp"
+#include "quality/judged.hpp"
 #include "quality/shapes.hpp"
 #include "quality/sides.hpp"
 #include "space/faults.hpp"
@@ -198,6 +199,7 @@ Eigen::Vector3d mean_normal(const Patch& patch) { return area_vector(patch).norm
 bool is_planar(const Patch& patch) { return plane_normal(patch).has_value(); }
 
 std::optional<BadQuad> find_bad_quad(const Patch& patch) {
+  if (patch.quads.empty()) return {};
   if (!is_planar(patch)) {
     Index corner = kNone;
     const Index quad = space::find_bad_quad(patch, corner);
@@ -211,6 +213,13 @@ std::optional<BadQuad> find_bad_quad(const Patch& patch) {
 }
 
 std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, InputQuads quads, double beside) {
+  Judged judged(patch, mesh);
+  return find_defect(judged, quads, beside);
+}
+
+std::optional<Defect> find_defect(Judged& judged, InputQuads quads, double beside) {
+  const Patch& patch = judged.before();
+  const QuadMesh& mesh = judged.after();
   if (Finding defect = find_bad_reference(patch, mesh)) return defect;
   const std::vector<Index> rows = result_rows(patch, mesh);
   for (Index node : patch.fixed)
@@ -220,7 +229,7 @@ std::optional<Defect> find_defect(const Patch& patch, const QuadMesh& mesh, Inpu
   if (kept)
     if (Finding defect = find_changed_quad(patch, mesh, rows)) return defect;
 
-  if (!is_planar(patch)) return space::find_defect(patch, mesh, kept ? patch.quads.size() : 0, beside);
+  if (!judged.plane()) return space::find_defect(patch, judged.on_surface(), kept ? patch.quads.size() : 0, beside);
   const Eigen::Vector3d normal = mean_normal(patch);
   // Quads that were there before are looked at by find_bad_quad.
   const auto made = std::span<const std::array<Index, 4>>(mesh.quads).subspan(kept ? patch.quads.size() : 0);

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "quality/judged.hpp"
 #include "quality/percentile.hpp"
-#include "quality/shapes.hpp"
-#include "space/result.hpp"
 
 namespace qmorph {
 namespace {
@@ -76,10 +75,12 @@ class WayBack {
       const Index from = best;
       for (Index side = 4 * from; side < 4 * from + 4; ++side) {
         if (result_.sides().node(side) == kNone) continue;
+        const Index before = result_.sides().opposite(result_.sides().previous(side));  // looked at from there
         result_.sides().for_fan(side, [&](Index other) {
-          if (is_farther(p, other / 4, least)) return;
-          const double there = to_element(p, other / 4);
-          if (there < least) least = there, best = other / 4;
+          const Index e = other / 4;
+          if (e == from || (before != kNone && e == before / 4) || is_farther(p, e, least)) return;
+          const double there = to_element(p, e);
+          if (there < least) least = there, best = e;
         });
       }
       if (best == from) break;
@@ -147,11 +148,20 @@ Spread FidelityAccumulator::Values::spread() const {
 }
 
 void FidelityAccumulator::add(const Patch& before, const QuadMesh& after) {
-  if (!plane_normal(before)) add_any(before, after);
+  Judged judged(before, after);
+  add(judged);
+}
+
+void FidelityAccumulator::add(Judged& judged) {
+  if (!judged.plane()) add_on(judged.before(), judged.on_surface());
 }
 
 void FidelityAccumulator::add_any(const Patch& before, const QuadMesh& after) {
-  const space::Result result(before, after);
+  add_on(before, space::Result(before, after));
+}
+
+void FidelityAccumulator::add_on(const Patch& before, const space::Result& result) {
+  const QuadMesh& after = result.mesh();
   const space::ElementSides& sides = result.sides();
   const auto& points = after.points;
   const auto ends = [&](Index side) {

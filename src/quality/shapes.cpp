@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "geometry/predicates.hpp"
+#include "quality/judged.hpp"
 #include "space/faults.hpp"
 #include "space/mesh_normals.hpp"
-#include "space/result.hpp"
 
 namespace qmorph {
 namespace {
@@ -85,9 +85,9 @@ class Shapes::InSpace {
       : sides_(std::in_place, mesh.points.size(), mesh.triangles, mesh.quads),
         by_mesh_(std::in_place, mesh.points, *sides_) {}
 
-  InSpace(const Patch& before, const QuadMesh& after)
-      : result_(std::in_place, before, after), unsure_(space::unsure_ground(before)) {
+  explicit InSpace(Judged& judged) : result_(&judged.on_surface()), unsure_(space::unsure_ground(judged.before())) {
     if (unsure_.empty()) return;
+    const QuadMesh& after = judged.after();
     sides_.emplace(after.points.size(), after.triangles, after.quads);
     by_mesh_.emplace(after.points, *sides_);
   }
@@ -101,7 +101,7 @@ class Shapes::InSpace {
  private:
   std::optional<space::ElementSides> sides_;
   std::optional<space::MeshNormals> by_mesh_;
-  std::optional<space::Result> result_;
+  const space::Result* result_ = nullptr;
   std::vector<char> unsure_;  ///< space::unsure_ground(), if any is
 };
 
@@ -114,11 +114,11 @@ Shapes::Shapes(const SurfaceElements& mesh) : mesh_(mesh) {
     in_space_ = std::make_unique<const InSpace>(mesh);
 }
 
-Shapes::Shapes(const Patch& before, const QuadMesh& after) : mesh_{after.points, after.triangles, after.quads} {
-  if (const auto normal = plane_normal(before))
-    normal_ = *normal;
+Shapes::Shapes(Judged& judged) : mesh_{judged.after().points, judged.after().triangles, judged.after().quads} {
+  if (judged.plane())
+    normal_ = *judged.plane();
   else
-    in_space_ = std::make_unique<const InSpace>(before, after);
+    in_space_ = std::make_unique<const InSpace>(judged);
 }
 
 Shapes::~Shapes() = default;

@@ -16,6 +16,8 @@
 
 namespace qmorph {
 
+class Judged;
+
 struct ElementShape {
   double scaled_jacobian = 1;
   double smallest_angle_deg = 90, largest_angle_deg = 90;
@@ -42,9 +44,9 @@ class QMORPH_API Shapes {
   Shapes(const SurfaceElements& mesh, const Eigen::Vector3d& normal);
   /// Elements of which nothing is known: in a plane if they have one, else judged by those around them.
   explicit Shapes(const SurfaceElements& mesh);
-  /// What a surface was made into: in its plane if it has one, else judged by its triangles (and quads), which must
+  /// What a surface was made into: in its plane if it has one, else judged by its triangles (and quads). `judged` must
   /// outlive this.
-  Shapes(const Patch& before, const QuadMesh& after);
+  explicit Shapes(Judged& judged);
   ~Shapes();
   Shapes(Shapes&&) noexcept;
 

@@ -263,8 +263,8 @@ std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, st
   return find_turned(Result(before, after), suspects, on_bad_elements(before));
 }
 
-std::optional<Defect> find_defect(const Patch& before, const QuadMesh& after, std::size_t kept, double beside) {
-  const Result result(before, after);
+std::optional<Defect> find_defect(const Patch& before, const Result& result, std::size_t kept, double beside) {
+  const QuadMesh& after = result.mesh();
   const bool are_free = kept == 0 && !before.quads.empty();
   const std::vector<char> unsure = are_free ? unsure_ground(before) : std::vector<char>();
   Ground ground{result, unsure, beside};

@@ -24,8 +24,8 @@ namespace {
 /// Moves middle nodes of a part's elements onto the geometry that its triangles stand for.
 class Curving {
  public:
-  Curving(const SurfacePart& part, const QuadMesh& mesh, const Lander& lander, CurvedElements& elements)
-      : part_(part), result_(part.patch, mesh), lander_(lander), elements_(elements) {}
+  Curving(const SurfacePart& part, const space::Result& result, const Lander& lander, CurvedElements& elements)
+      : part_(part), result_(result), lander_(lander), elements_(elements) {}
 
   void run() {
     land_sides();
@@ -93,7 +93,7 @@ class Curving {
   }
 
   const SurfacePart& part_;
-  const space::Result result_;
+  const space::Result& result_;
   const Lander& lander_;
   CurvedElements& elements_;
 };
@@ -165,7 +165,7 @@ void curve_sides(const ModelMesh& mesh, const Lander& lander, ConvertedSurface& 
     const SurfacePart& part = surface.surface.parts[p];
     const QuadMesh& result = surface.results[p];
     CurvedElements& elements = surface.curved.emplace_back(curve_result(mesh, before, part, result));
-    if (lander) Curving(part, result, lander, elements).run();
+    if (lander) Curving(part, surface.judged[p].on_surface(), lander, elements).run();
     surface.on_geometry.moved_sides += elements.unfold();
     if (lander) count(elements, surface.on_geometry);
   }

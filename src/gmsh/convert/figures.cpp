@@ -20,17 +20,16 @@ constexpr double kSameMean = 1e-9;
 
 }  // namespace
 
-void Figures::add_result(const ConvertedSurface& converted, SurfaceReport& report) {
+void Figures::add_result(ConvertedSurface& converted, SurfaceReport& report) {
   QualityAccumulator quality;
   FidelityAccumulator fidelity;
   report.triangles_out = report.quads_out = 0;
-  for (std::size_t p = 0; p < converted.results.size(); ++p) {
-    const QuadMesh& result = converted.results[p];
-    const Patch& patch = converted.surface.parts[p].patch;
-    quality.add(patch, result);
-    fidelity.add(patch, result);
+  for (Judged& judged : converted.judged) {
+    const QuadMesh& result = judged.after();
+    quality.add(judged);
+    fidelity.add(judged);
     const auto figures = quality.scaled_jacobians().subspan(report.quads_out);
-    for (PoorQuad poor : explain_poor_quads(patch, result, figures, crease_angle_)) {
+    for (PoorQuad poor : explain_poor_quads(judged, figures, crease_angle_)) {
       poor.quad += Index(report.quads_out);
       report.poor.push_back(poor);
     }

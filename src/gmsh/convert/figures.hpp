@@ -15,7 +15,7 @@ class Figures {
   explicit Figures(const Options& options) : crease_angle_(options.crease_angle) {}
 
   /// Of a result that has been checked: elements, quality, what makes quads poor, sizes.
-  void add_result(const ConvertedSurface& converted, SurfaceReport& report);
+  void add_result(ConvertedSurface& converted, SurfaceReport& report);
   /// Warns where quads that were to be improved had to become worse. \pre add_result
   void compare_with_input(const ConvertedSurface& converted, SurfaceReport& report);
   /// Of a surface that stays as it is. \param before to compare it with; may be null

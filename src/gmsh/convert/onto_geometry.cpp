@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/convert/onto_geometry.hpp"
 
-#include "qmorph/check.hpp"
 #include "space/move_nodes.hpp"
 
 namespace qmorph::adapter {
@@ -35,12 +34,12 @@ void settle(const Lander& lander, ConvertedSurface& surface, bool may_move) {
   for (std::size_t p = 0; p < surface.results.size(); ++p) {
     const SurfacePart& part = surface.surface.parts[p];
     QuadMesh& mesh = surface.results[p];
-    const space::Result result(part.patch, mesh);
+    const space::Result& result = surface.judged[p].on_surface();
     const std::vector<Index> nodes = space::movable_nodes(result, part.patch);
     const std::vector<Landing> landings = lander(places_of(nodes, result, part));
     auto& parameters = surface.parameters.emplace_back(mesh.points.size(), kNoParameters);
     for (std::size_t i = 0; i < nodes.size(); ++i) parameters[nodes[i]] = landings[i].parameters;
-    if (may_move && !is_planar(part.patch)) surface.on_geometry.add(move(nodes, landings, result, mesh));
+    if (may_move && !surface.judged[p].plane()) surface.on_geometry.add(move(nodes, landings, result, mesh));
   }
 }
 

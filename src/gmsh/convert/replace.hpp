@@ -12,6 +12,7 @@
 #include "qmorph/gmsh.hpp"
 #include "qmorph/patch.hpp"
 #include "qmorph/report.hpp"
+#include "quality/judged.hpp"
 
 namespace qmorph::adapter {
 
@@ -19,7 +20,8 @@ namespace qmorph::adapter {
 struct ConvertedSurface {
   SurfaceMesh surface;
   std::vector<QuadMesh> results;
-  ConversionReport report{};  ///< of all parts together
+  std::vector<Judged> judged{};  ///< of each part, as its nodes are now: between settling and the figures
+  ConversionReport report{};     ///< of all parts together
   /// Of each part's nodes those on the surface of a geometry, NaN for what stays from the input; empty: not known.
   std::vector<std::vector<Eigen::Vector2d>> parameters{};
   OnGeometry on_geometry{};

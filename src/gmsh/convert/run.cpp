@@ -31,6 +31,13 @@ constexpr double kOnTriangles = 1e-6, kOnGeometry = 1;
 /// Where not even the quads that are there already may pass for good ones.
 bool is_broken(ErrorKind kind) { return kind == ErrorKind::not_finite || kind == ErrorKind::bad_element; }
 
+/// Anew, since nodes have moved.
+void judge(ConvertedSurface& converted) {
+  converted.judged.clear();
+  for (std::size_t p = 0; p < converted.results.size(); ++p)
+    converted.judged.emplace_back(converted.surface.parts[p].patch, converted.results[p]);
+}
+
 /// The quads of a surface may change.
 void free_quads(SurfaceMesh& surface) {
   surface.quads_may_go = true;
@@ -184,14 +191,13 @@ ConvertedSurface Run::read(std::uint32_t entity) {
 }
 
 /// \throws SurfaceError
-void Run::check(const ConvertedSurface& converted, double beside) const {
+void Run::check(ConvertedSurface& converted, double beside) const {
   const InputQuads quads_are = task_ == Task::convert ? InputQuads::kept : InputQuads::free;
-  for (std::size_t p = 0; p < converted.results.size(); ++p) {
-    const SurfacePart& part = converted.surface.parts[p];
-    if (const std::optional<Defect> defect = find_defect(part.patch, converted.results[p], quads_are, beside))
+  judge(converted);
+  for (Judged& judged : converted.judged)
+    if (const std::optional<Defect> defect = find_defect(judged, quads_are, beside))
       throw SurfaceError("the result is not valid: " + defect->what + "; this is a mistake of qmorph",
                          {.kind = ErrorKind::no_valid_mesh, .place = defect->place});
-  }
 }
 
 /// The last word on where nodes are.
@@ -208,6 +214,7 @@ void Run::settle(ConvertedSurface& converted) {
       check(converted, kOnGeometry);
     } catch (const SurfaceError&) {
       converted.results = on_triangles;
+      judge(converted);
       converted.on_geometry = {0, converted.on_geometry.all()};
     }
   }
@@ -232,6 +239,7 @@ void Run::accept(ConvertedSurface converted, SurfaceReport& report) {
   report.reason = converted.bent;
   figures_.add_result(converted, report);
   if (task_ == Task::improve) figures_.compare_with_input(converted, report);
+  converted.judged.clear();
   converted_.push_back(std::move(converted));
   report_.check_seconds += watch.lap();
 }

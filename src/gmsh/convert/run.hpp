@@ -38,7 +38,7 @@ class Run {
   ConvertedSurface read(std::uint32_t entity);
   void settle(ConvertedSurface& converted);
   void settle_image(ConvertedSurface& converted);
-  void check(const ConvertedSurface& converted, double beside) const;
+  void check(ConvertedSurface& converted, double beside) const;
   void accept(ConvertedSurface converted, SurfaceReport& report);
   void look_at(std::uint32_t entity, SurfaceReport& report);
   void find_faults(const SurfaceMesh& surface, SurfaceReport& report) const;
