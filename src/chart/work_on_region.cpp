@@ -36,6 +36,15 @@ constexpr std::size_t kFewTurned = 4;
 /// With more than this in a region that is not large, another try has failed as well, as good as always. Where parts
 /// have no chart, some elements in a thousand are turned over, so that large regions fail with fewer.
 constexpr std::size_t kManyTurned = 24;
+/// Up to so many triangles a region is worth more tries: a doubtful element is worth another one.
+constexpr std::size_t kSmall = 5000;
+
+/// Whether a region has so many elements turned over before anything is improved that as many are so in the end, while
+/// what comes in between is most of the work.
+bool are_hopeless(std::size_t turned, std::size_t triangles) {
+  constexpr double kShare = 0.001;
+  return triangles > kSmall && double(turned) > double(kManyTurned) + kShare * double(triangles);
+}
 
 using Work = WindowResult (*)(const LaidOut& window, const Options& options, const Ground& ground, double allowed);
 
@@ -45,6 +54,8 @@ struct Distrust {
   bool interfaces = false;  ///< straight ones were too much
   bool all = false;
   int refinings = 0;  ///< there are too few nodes
+  /// Elements that the best try has left turned over.
+  std::size_t fewest_turned = std::numeric_limits<std::size_t>::max();
 };
 
 /// One try.
@@ -70,6 +81,7 @@ class Worker {
     if (wants_stages(options_)) work_.stages.assign(kStages - 1, started());
     divide();
     work_on_parts();
+    if (is_hopeless()) return false;
     clean_interfaces();
     const SurfaceMesh before = mesh_;
     if (task_ == Task::convert && cancel_irregular_nodes()) {
@@ -151,6 +163,22 @@ class Worker {
 
   /// What is refined here is as long as there were too few nodes.
   bool may_stretch() const { return task_ == Task::convert && options_.layers && distrust_.refinings == 0; }
+
+  /// What begins with more elements turned over than another try has left is no better. If so, faults_ has them. On a
+  /// surface that is smooth nearly everywhere nothing is turned over.
+  bool is_hopeless() {
+    constexpr double kSmoothShare = 0.9;  // of the triangles
+    const std::size_t size = region_.region.triangles.size();
+    if (task_ != Task::convert || size <= kSmall) return false;
+    std::size_t smooth = 0;
+    for (Index t = 0; t < size; ++t) smooth += background().is_smooth(t);
+    if (double(smooth) > kSmoothShare * double(size)) return false;
+    std::vector<Index> turned = space::find_turned(mesh_, divided_->creases, region_, stretched_);
+    const bool is_worse = turned.size() > std::max(kFewTurned, distrust_.fewest_turned);
+    if (!is_worse && !are_hopeless(turned.size(), size)) return false;
+    faults_.turned = std::move(turned);
+    return true;
+  }
 
   bool improve() {
     std::optional<SurfaceMesh> widened;
@@ -378,13 +406,11 @@ bool has_more_for(const Budget& budget, std::size_t triangles, double times) {
 RegionWork work_on_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task,
                           SharedDivision& shared) {
   constexpr int kTries = 4;
-  constexpr std::size_t kSmall = 5000;  // triangles, so that a doubtful element is worth another try
-  constexpr std::size_t kFew = 50;      // so that it is worth all of them
+  constexpr std::size_t kFew = 50;  // so that it is worth all of them
   const std::size_t size = region.region.triangles.size();
   Distrust distrust;
   std::optional<SurfaceError> first;
   Best best;
-  std::size_t fewest_turned = std::numeric_limits<std::size_t>::max();
   for (int i = 1; i <= kTries; ++i) {
     if (best.work && !has_more_for(budget, size)) break;
     distrust.all = distrust.all || i == kTries || !has_more_for(budget, size);
@@ -395,7 +421,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
       if (best.doubtful == 0 || !is_new || size > kSmall) break;
     } else {
       if (!first) first = worker.find_fault();
-      fewest_turned = std::min(fewest_turned, worker.turned());
+      distrust.fewest_turned = std::min(distrust.fewest_turned, worker.turned());
       const std::size_t most_turned = size > kSmall ? kFewTurned : kManyTurned;
       if (distrust.all || (worker.turned() > most_turned && !has_more_for(budget, size))) break;
       if (!worker.learn(distrust)) distrust.all = true;
@@ -405,7 +431,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
   if (best.work && (best.doubtful == 0 || size > kFew)) return std::move(*best.work);
   // What is valid in a chart may have no valid place on a surface that turns sharply; what another front makes may have
   // one, if there are few such places.
-  const bool is_hopeful = task == Task::convert && (best.work || fewest_turned <= kFewTurned);
+  const bool is_hopeful = task == Task::convert && (best.work || distrust.fewest_turned <= kFewTurned);
   if (is_hopeful && size <= options.retry_triangles) {
     const Distrust nothing;
     for (const Options& variant : few_front_variants(options)) {
@@ -425,6 +451,7 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
          has_more_for(budget, size))
     if (Worker worker(region, options, budget, task, nodes, shared); worker.run()) best.consider(worker);
   if (best.work) return std::move(*best.work);
+  if (are_hopeless(distrust.fewest_turned, size)) throw HopelessRegion(first->what(), first->details());
   throw *first;
 }
 
