@@ -36,6 +36,8 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     own.progress = progress[r];
     try {
       works[r] = best_of_attempts(regions[r], own, budgets[r], task);
+    } catch (const HopelessRegion&) {
+      throw;
     } catch (const SurfaceError&) {
       if (!stuck) throw;
       is_stuck[r] = 1;

@@ -9,6 +9,7 @@
 
 #include "chart/curved_region.hpp"
 #include "chart/part_work.hpp"
+#include "qmorph/error.hpp"
 
 namespace qmorph::chart {
 
@@ -27,6 +28,12 @@ bool has_more_for(const Budget& budget, std::size_t triangles, double times = 1)
 struct DividedRegion;
 /// Of what several tries of one region begin with alike, made by the first that needs it; null before that.
 using SharedDivision = std::shared_ptr<const DividedRegion>;
+
+/// So many elements are turned over that it is not layers beside the region that are to blame.
+class HopelessRegion : public SurfaceError {
+ public:
+  using SurfaceError::SurfaceError;
+};
 
 /// Cuts the region into parts that lie flat, works on each in its chart, joins them, cleans the interfaces, and smooths
 /// and mends in space. What fails, or is doubtful, is tried again in other ways.

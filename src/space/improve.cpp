@@ -13,11 +13,21 @@
 namespace qmorph::space {
 namespace {
 
-std::vector<Background::Edge> barriers(const chart::CurvedRegion& region) {
-  std::vector<Background::Edge> edges = region.barriers;
-  for (const auto& [a, b] : region.creases) edges.push_back({a, b});
-  return edges;
-}
+/// The surface of a region, which parts at its creases.
+class PartedSurface {
+ public:
+  explicit PartedSurface(const chart::CurvedRegion& region) : region_(region) {
+    if (region.creases.empty()) return;
+    std::vector<Background::Edge> edges = region.barriers;
+    for (const auto& [a, b] : region.creases) edges.push_back({a, b});
+    own_.emplace(region.points, region.region.triangles, edges);
+  }
+  const Background& operator*() const { return own_ ? *own_ : *region_.background; }
+
+ private:
+  const chart::CurvedRegion& region_;
+  std::optional<const Background> own_;
+};
 
 /// Which faces lie where the surface itself is folded; what lies beyond a crease does not count.
 class Folds {
@@ -43,6 +53,14 @@ class Folds {
   std::optional<SurfaceNormals> normals_;  ///< made when it is asked for: most surfaces have no fold
 };
 
+/// Where the surface itself is not folded.
+std::vector<Index> turned_faces(const MeshOnSurface& mesh, Folds& folds) {
+  std::vector<Index> faces;
+  for (const PoorFace& poor : find_poor(mesh, 0))
+    if (!folds.are_under(poor.face)) faces.push_back(poor.face);
+  return faces;
+}
+
 std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
   constexpr double kLeastRise = 0.2;  // with less, normals of triangles beside those at a corner may say otherwise
   std::vector<Index> faces;
@@ -55,14 +73,21 @@ std::vector<Index> doubtful_faces(const MeshOnSurface& mesh, Folds& folds) {
 
 }  // namespace
 
+std::vector<Index> find_turned(chart::SurfaceMesh mesh, const std::vector<chart::Edge>& creases,
+                               const chart::CurvedRegion& region, const std::vector<char>& stretched) {
+  const PartedSurface surface(region);
+  const MeshOnSurface view(mesh, creases, *surface, region.whole(), stretched);
+  Folds folds(view, *surface, region.unsure);
+  return turned_faces(view, folds);
+}
+
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
                const std::vector<char>& stretched, const SmoothingOptions& options) {
   constexpr std::size_t kWorkOfLook = 150;
   std::size_t looks = 0;
   const WholeSurface whole = region.whole();
-  std::optional<const Background> parted;  // at creases
-  if (!region.creases.empty()) parted.emplace(region.points, region.region.triangles, barriers(region));
-  const Background& surface = parted ? *parted : *region.background;
+  const PartedSurface parted(region);
+  const Background& surface = *parted;
   {
     MeshOnSurface view(mesh, creases, surface, whole, stretched);
     smooth(view, options);
@@ -80,8 +105,7 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
   smooth_near(view, options, raise_poor(view, options));
   raise_bent(view, options);
   Folds folds(view, surface, region.unsure);
-  for (const PoorFace& poor : find_poor(view, 0))
-    if (!folds.are_under(poor.face)) faults.turned.push_back(poor.face);
+  faults.turned = turned_faces(view, folds);
   if (faults.turned.empty()) faults.doubtful = doubtful_faces(view, folds);
   faults.work += kWorkOfLook * (looks + view.exact_looks());
   return faults;

@@ -23,4 +23,8 @@ struct Faults {
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
                const std::vector<char>& stretched, const SmoothingOptions& options);
 
+/// The faces that are turned over as the mesh is, apart from those where the surface itself is folded.
+std::vector<Index> find_turned(chart::SurfaceMesh mesh, const std::vector<chart::Edge>& creases,
+                               const chart::CurvedRegion& region, const std::vector<char>& stretched);
+
 }  // namespace qmorph::space

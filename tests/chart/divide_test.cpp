@@ -5,11 +5,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "chart/fixture.hpp"
 #include "chart/interfaces.hpp"
+#include "chart/opening.hpp"
 #include "chart/topology.hpp"
 
 using namespace qmorph;
@@ -173,5 +176,22 @@ TEST_CASE("interfaces: at most one part is odd, and all nodes stay on the surfac
       CHECK((start.region.background->foot_on(start.mesh.on[v], p).point - p).norm() < 1e-12);
     }
     for (const auto& [a, b] : creases) CHECK(std::binary_search(creases.begin(), creases.end(), Edge(a, b)));
+  }
+}
+
+TEST_CASE("divide: the end of a line inside is a tip that is wide, a pointed cone's is one that may be narrow") {
+  constexpr Index kAround = 12;
+  for (const double height : {0.0, 0.3, 3.0}) {  // of a cone over the unit circle with a line from its rim to its tip
+    Patch patch{.points = {{0, 0, height}}};
+    for (Index k = 0; k < kAround; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kAround;
+      patch.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+      patch.triangles.push_back({0, 1 + k, 1 + (k + 1) % kAround});
+    }
+    patch.constraints = {{0, 1}};
+    const Start start(patch);
+    std::vector<Index> all(start.mesh.faces.size());
+    std::iota(all.begin(), all.end(), 0);
+    CHECK(may_have_narrow_tip(Piece(start.mesh, start.opposite, {}, all)) == (height > 1));
   }
 }

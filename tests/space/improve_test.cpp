@@ -115,9 +115,11 @@ TEST_CASE("space: elements that are turned over are found, worst first, and turn
       const auto poor = space::find_poor(view, 0);
       REQUIRE_FALSE(poor.empty());
       for (std::size_t i = 0; i + 1 < poor.size(); ++i) CHECK(poor[i].sine <= poor[i + 1].sine);
+      CHECK(space::find_turned(sheet.mesh, {}, sheet.region(), {}).size() == poor.size());
     }
     SurfaceMesh mended = sheet.mesh;
     CHECK(space::improve(mended, {}, sheet.region(), {}, SmoothingOptions()).turned.empty());
+    CHECK(space::find_turned(mended, {}, sheet.region(), {}).empty());
     SurfaceMesh copy = mended;
     const MeshOnSurface view(copy, {}, *sheet.region().background, *sheet.region().background);
     CHECK(space::find_poor(view, 0.5).empty());
