@@ -13,6 +13,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
+#include "space/creases.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
@@ -124,7 +125,7 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& bu
   const std::optional<Plane> plane = find_plane(patch);
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
-    const auto layers = layers::find_layers(patch, stuck, options.crease_angle);
+    const auto layers = layers::find_layers(patch, stuck, space::crease_angle_of(patch, options.crease_angle));
     if (!layers) break;
     if (plane && i == 0) {
       const Surface whole(patch, *plane);
