@@ -18,6 +18,7 @@ struct Patch {
   std::vector<std::array<Index, 2>> constraints;  ///< edges to keep: line elements on or in the surface
   std::vector<Index> fixed;                       ///< nodes to keep in place, besides those of the
                                                   ///< boundary and of the constraints
+  bool is_smooth = false;  ///< the surface that the triangles stand for has no creases: what is sharp are facets
 };
 
 /// The same surface in quads. Nodes that are fixed, on the boundary or on a constraint have the

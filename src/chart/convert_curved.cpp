@@ -8,6 +8,7 @@
 #include "parallel/for_each.hpp"
 #include "parallel/shared_progress.hpp"
 #include "qmorph/error.hpp"
+#include "space/creases.hpp"
 #include "space/faults.hpp"
 #include "space/put_right.hpp"
 #include "space/reference.hpp"
@@ -15,8 +16,8 @@
 namespace qmorph::chart {
 namespace {
 
-std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, const Options& options, Task task,
-                                    Budget& budget, std::vector<bool>* stuck) {
+std::vector<RegionWork> work_on_all(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
+                                    Task task, Budget& budget, std::vector<bool>* stuck) {
   std::vector<char> is_stuck(regions.size(), 0);
   std::vector<RegionWork> works(regions.size());
   std::size_t total = 0;
@@ -30,12 +31,19 @@ std::vector<RegionWork> work_on_all(const std::vector<CurvedRegion>& regions, co
     budgets.emplace_back(share_of(budget.left_for_another(), size, double(total), regions.size()));
   }
   const SpentInAll spent_in_all(budget, budgets);
+  const auto best = [&](std::size_t r, const Options& own) {
+    if (!kept.is_smooth) return best_of_attempts(regions[r], own, budgets[r], task);
+    CurvedRegion faceted(kept, regions[r].region, options.crease_angle);
+    if (faceted.creases.empty()) return best_of_attempts(regions[r], own, budgets[r], task);
+    faceted.beside = regions[r].beside;
+    return best_with_or_without_creases(regions[r], faceted, own, budgets[r], task);
+  };
   parallel::for_each_index(regions.size(), [&](std::size_t r) {
     if (shared.is_over()) return;
     Options own = options;
     own.progress = progress[r];
     try {
-      works[r] = best_of_attempts(regions[r], own, budgets[r], task);
+      works[r] = best(r, own);
     } catch (const HopelessRegion&) {
       throw;
     } catch (const SurfaceError&) {
@@ -71,7 +79,7 @@ SurfaceRecord record_of(const Patch& kept, const std::vector<CurvedRegion>& regi
 /// `kept` has those quads of the patch that stay.
 SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& regions, const Options& options,
                            Task task, Budget& budget, std::vector<bool>* stuck) {
-  std::vector<RegionWork> works = work_on_all(regions, options, task, budget, stuck);
+  std::vector<RegionWork> works = work_on_all(kept, regions, options, task, budget, stuck);
   SurfaceWork result;
   std::vector<const SurfaceMesh*> meshes;
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -88,7 +96,8 @@ SurfaceWork work_on_curved(const Patch& kept, const std::vector<CurvedRegion>& r
 }  // namespace
 
 SurfaceWork convert_curved(const Patch& patch, const Options& options, Budget& budget, std::vector<bool>* stuck) {
-  return work_on_curved(patch, curved_regions(patch, options.crease_angle), options, Task::convert, budget, stuck);
+  return work_on_curved(patch, curved_regions(patch, space::crease_angle_of(patch, options.crease_angle)), options,
+                        Task::convert, budget, stuck);
 }
 
 namespace {

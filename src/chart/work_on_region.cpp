@@ -92,4 +92,21 @@ std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& 
   return attempt.result();
 }
 
+std::optional<RegionWork> try_grid(const CurvedRegion& region, const Options& options, Budget& budget,
+                                   GridSizes sizes) {
+  budget.spend(double(kWorkToBegin * region.region.triangles.size()));
+  std::optional<SurfaceMesh> grid = lay_grid(region, sizes);
+  if (!grid) return {};
+  RegionWork work;
+  if (wants_stages(options)) {
+    work.stages.assign(kStages - 1, *grid);
+    work.stages.front() = region.start();
+  }
+  const space::Faults faults = space::improve(*grid, {}, region, {}, options.smoothing);
+  budget.spend(double(faults.work));
+  if (!faults.turned.empty() || !faults.doubtful.empty()) return {};
+  work.mesh = std::move(*grid);
+  return work;
+}
+
 }  // namespace qmorph::chart

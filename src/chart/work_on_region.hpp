@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "chart/curved_region.hpp"
+#include "chart/lay_grid.hpp"
 #include "chart/part_work.hpp"
 #include "qmorph/error.hpp"
 
@@ -44,5 +45,8 @@ RegionWork work_on_region(const CurvedRegion& region, const Options& options, Bu
 /// The same, tried once, and each part as well: nothing if that fails or is doubtful.
 std::optional<RegionWork> try_region(const CurvedRegion& region, const Options& options, Budget& budget, Task task,
                                      SharedDivision& shared);
+
+/// The region as a grid (lay_grid.hpp), smoothed and mended in space: nothing if it is none, or an element is doubtful.
+std::optional<RegionWork> try_grid(const CurvedRegion& region, const Options& options, Budget& budget, GridSizes sizes);
 
 }  // namespace qmorph::chart

@@ -14,6 +14,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
+#include "space/creases.hpp"
 #include "space/faults.hpp"
 #include "stretch/convert_stretched.hpp"
 
@@ -126,7 +127,7 @@ SurfaceWork convert_with_layers(const Patch& patch, const std::optional<Plane>& 
   constexpr int kTries = 2;
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
-    const auto layers = layers::find_layers(patch, stuck, options.crease_angle);
+    const auto layers = layers::find_layers(patch, stuck, space::crease_angle_of(patch, options.crease_angle));
     if (!layers) break;
     if (plane && i == 0) {
       const Surface whole(patch, *plane);

@@ -52,6 +52,7 @@ class Writer {
   Writer(const Cells& cells, const std::vector<Cut>& cuts) : cells_(cells), sides_(cells.sides()) {
     const Patch& patch = sides_.patch();
     out_.points = patch.points;
+    out_.is_smooth = patch.is_smooth;
     out_.quads = patch.quads;
     out_.constraints = patch.constraints;
     out_.fixed = patch.fixed;

@@ -63,7 +63,7 @@ class Explanation {
       std::vector<space::Background::Edge> barriers;
       for (const auto& [a, b] : before_.constraints) barriers.push_back({a, b});
       const space::Background surface(before_.points, before_.triangles, barriers);
-      for (const auto& [a, b] : space::find_creases(surface, crease_angle)) add(a, b);
+      for (const auto& [a, b] : space::find_creases(surface, space::crease_angle_of(before_, crease_angle))) add(a, b);
     }
     return edges;
   }

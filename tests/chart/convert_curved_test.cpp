@@ -423,6 +423,20 @@ TEST_CASE("curved: a tip of a cone that two quads surround gets a third") {
   CHECK(!chart::with_wider_tips(mesh, {}, *two.start.region.background));
 }
 
+TEST_CASE("curved: what is sharp on a smooth surface is no crease") {
+  Patch roof = plate(6, 4);
+  for (Vector3d& p : roof.points)  // turned down by 100 degrees beyond its third column
+    if (const double beyond = p.x() - 3; beyond > 0)
+      p = {3 + beyond * std::cos(100 * std::numbers::pi / 180), p.y(),
+           -beyond * std::sin(100 * std::numbers::pi / 180)};
+  const double asked = Options{}.crease_angle;
+  CHECK(chart::curved_regions(roof, space::crease_angle_of(roof, asked)).at(0).creases.size() == 4);
+  check(roof, convert(roof).mesh);
+  roof.is_smooth = true;
+  CHECK(chart::curved_regions(roof, space::crease_angle_of(roof, asked)).at(0).creases.empty());
+  check(roof, convert(roof).mesh);
+}
+
 TEST_CASE("curved: quads at the tip of a cone are good by their own normals, too") {
   for (const auto& [around, rings] : {std::pair(3, 9), std::pair(4, 6)}) {
     const QuadMesh mesh = convert(cone(around, rings, 3)).mesh;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "gmsh/geometry/facets.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/support.hpp"
@@ -104,6 +105,50 @@ TEST_CASE("on geometry: nodes inside surfaces lie where their parameters say, wi
       ::gmsh::model::getClosestPoint(2, surface.tag, surface.xyz, nearest, ignored);
       CHECK(largest_difference(nearest, surface.xyz) < 1e-7);
     }
+  }
+}
+
+TEST_CASE("on geometry: facets of a coarse coil are no creases") {
+  const RunningGmsh gmsh;
+  open_and_mesh(R"(SetFactory("OpenCASCADE");
+For i In {0:12}
+  Point(i+1) = {30*Cos(i*Pi/6), 30*Sin(i*Pi/6), 3*i};
+EndFor
+Spline(1) = {1:13}; Wire(1) = {1};
+Disk(1) = {30, 0, 0, 6}; Rotate {{1, 0, 0}, {30, 0, 0}, Pi/2} { Surface{1}; }
+Extrude { Surface{1}; } Using Wire {1}
+Delete { Surface{1}; }
+Mesh.MeshSizeMax = 9;
+)");
+  const ModelReport report = session::recombine();
+  CHECK(report.count(SurfaceOutcome::left) == 0);
+  CHECK(report.total.scaled_jacobian_min > 0.5);
+  CHECK(report.on_geometry.nodes > 50);
+  CHECK(report.on_geometry.left == 0);
+}
+
+TEST_CASE("on geometry: a geometry with a kink has a crease there") {
+  constexpr double kAngle = 0.3;
+  for (const bool is_kinked : {true, false}) {
+    CAPTURE(is_kinked);
+    const adapter::Session session;
+    ::gmsh::model::add("roof");
+    std::vector<int> points;
+    for (int i = 0; i < 5; ++i) points.push_back(::gmsh::model::occ::addPoint(i, 0, i < 3 ? 2 * i : 2 * (4 - i)));
+    const int curve = is_kinked ? ::gmsh::model::occ::addBSpline(points, -1, 1)  // of straight pieces
+                                : ::gmsh::model::occ::addSpline(points);
+    ::gmsh::vectorpair made;
+    ::gmsh::model::occ::extrude({{1, curve}}, 0, 3, 0, made);
+    ::gmsh::model::occ::synchronize();
+    ::gmsh::option::setNumber("Mesh.MeshSizeMax", 1.2);
+    ::gmsh::model::mesh::generate(2);
+    const adapter::ModelMesh mesh = adapter::read_model_mesh();
+    const adapter::NodeUse use = adapter::find_node_use(mesh);
+    const adapter::FixedEdges edges(mesh, use);
+    std::vector<Index> local(mesh.tags.size(), kNone);
+    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
+      if (mesh.entities[e].dim == 2)
+        CHECK(adapter::has_only_facets(mesh, adapter::read_surface(mesh, use, edges, e, local), kAngle) != is_kinked);
   }
 }
 

@@ -65,7 +65,7 @@ constexpr std::array kOptions = {
               "on (default): keep rows of triangles along walls, grids, and how triangles are stretched",
               [](Request& r, const Value& v) { r.layers = is_on(v); }},
     OurOption{"crease", "--crease X", once,
-              "on curved surfaces edges sharper than X degrees stay (default 40; 180: none)",
+              "edges of curved surfaces sharper than X degrees stay (40; 180: none), unless their geometry is smooth",
               [](Request& r, const Value& v) { r.crease = number_in(v, 0, 180); }},
     OurOption{"for", "--for READER", once,
               "what a reader needs: dealii, mfem, dolfinx, elmer, su2, calculix, abaqus, openfoam, specfem2d",

@@ -129,6 +129,7 @@ std::optional<Numbered> numbered(const Patch& patch) {
   for (const Vector3d& p : patch.points) points.push_back(result.frame.to_own(p));
 
   Patch& own = result.patch;
+  own.is_smooth = patch.is_smooth;
   std::vector<Index> triangle_rows;
   own.triangles = in_order(patch.triangles, result.frame.turns_over, points, triangle_rows);
   own.quads = in_order(patch.quads, result.frame.turns_over, points, result.quad);

@@ -15,6 +15,7 @@
 #include "gmsh/convert/onto_geometry.hpp"
 #include "gmsh/convert/pillow_bent.hpp"
 #include "gmsh/convert/stop_watch.hpp"
+#include "gmsh/geometry/facets.hpp"
 #include "gmsh/model/extrusions.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/overlap.hpp"
@@ -182,10 +183,13 @@ ConvertedSurface Run::read(std::uint32_t entity) {
   StopWatch watch;
   ConvertedSurface converted;
   converted.surface = read_surface(model_.mesh, model_.use, fixed_edges_, entity, local_);
-  if (task_ == Task::convert)
+  if (task_ == Task::convert) {
     refuse_bad_quads(converted.surface);
-  else
+    if (has_only_facets(model_.mesh, converted.surface, options_.crease_angle))
+      for (SurfacePart& part : converted.surface.parts) part.patch.is_smooth = true;
+  } else {
     free_quads(converted.surface);
+  }
   report_.read_seconds += watch.lap();
   return converted;
 }

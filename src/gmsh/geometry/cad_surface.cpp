@@ -54,10 +54,15 @@ struct Mean {
 
 }  // namespace
 
-std::unique_ptr<CadSurface> CadSurface::find(const ModelMesh& mesh, std::uint32_t entity) {
+bool CadSurface::may_be_found(const ModelMesh& mesh, std::uint32_t entity) {
   const std::string type = entity_type(2, mesh.entities[entity].tag);
   for (const char* no_geometry : {"Discrete", "Partition", "Ghost", "Plane"})
-    if (type.rfind(no_geometry, 0) == 0) return nullptr;
+    if (type.rfind(no_geometry, 0) == 0) return false;
+  return true;
+}
+
+std::unique_ptr<CadSurface> CadSurface::find(const ModelMesh& mesh, std::uint32_t entity) {
+  if (!may_be_found(mesh, entity)) return nullptr;
   std::unique_ptr<CadSurface> surface(new CadSurface(mesh, entity));
   return surface->exists() ? std::move(surface) : nullptr;
 }
@@ -120,6 +125,24 @@ std::vector<Landing> CadSurface::land(std::span<const OnInput> points) const {
   }
   search(points, std::move(open), landings);
   return landings;
+}
+
+std::vector<Vector3d> CadSurface::normals(std::span<const OnInput> points) const {
+  std::vector<Vector3d> normals(points.size(), Vector3d::Zero());
+  std::vector<double> parameters, found;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Vector2d at = Vector2d::Zero();
+    if (!guess(points[i], at)) continue;
+    at = parameters_.range().wrapped(at);
+    parameters.insert(parameters.end(), {at.x(), at.y()});
+    rows.push_back(i);
+  }
+  if (!rows.empty()) ::gmsh::model::getNormal(tag_, parameters, found);
+  if (found.size() != 3 * rows.size()) return normals;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (const Vector3d n(found[3 * k], found[3 * k + 1], found[3 * k + 2]); n.allFinite()) normals[rows[k]] = n;
+  return normals;
 }
 
 void CadSurface::search(std::span<const OnInput> points, std::vector<std::size_t> open,

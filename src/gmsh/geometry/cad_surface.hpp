@@ -20,7 +20,12 @@ class CadSurface {
   /// nonsense. Nor for a plane, where triangles are the geometry.
   static std::unique_ptr<CadSurface> find(const ModelMesh& mesh, std::uint32_t entity);
 
+  /// By its type alone: false where find() finds nothing in any case.
+  static bool may_be_found(const ModelMesh& mesh, std::uint32_t entity);
+
   std::vector<Landing> land(std::span<const OnInput> points) const;
+  /// Unit normals at parameters between those of the triangles' corners; zero where the surface has none.
+  std::vector<Eigen::Vector3d> normals(std::span<const OnInput> points) const;
 
  private:
   CadSurface(const ModelMesh& mesh, std::uint32_t entity)
