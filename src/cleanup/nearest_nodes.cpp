@@ -4,23 +4,26 @@
 namespace qmorph::cleanup {
 
 void NearestNodes::start(Index v) {
-  if (before_.size() < mesh_.vertex_slots()) before_.resize(mesh_.vertex_slots(), kNone);
-  found_.assign(1, v);
-  left_ = 0;
+  if (found_.empty()) found_.resize(1);
+  found_[0] = {v, 0};
+  count_ = 1, left_ = 0;
   reached_.clear();
   reached_.insert(v);
-  before_[v] = kNone;
 }
 
 Index NearestNodes::next(std::size_t most) {
-  if (left_ == found_.size() || left_ >= most) return kNone;
-  const Index v = found_[left_++];
+  edges_ = 0;
+  if (left_ == count_ || left_ >= most) return kNone;
+  const auto place = Index(left_++);
+  const Index v = found_[place].node;
   if (!mesh_.is_free(v)) return v;
   for (Index h : mesh_.around(v)) {
+    // Not `if`: half of the neighbours are new, and no processor can predict which.
+    if (count_ == found_.size()) found_.resize(2 * count_);
     const Index u = mesh_.target(h);
-    if (!reached_.insert(u)) continue;
-    before_[u] = v;
-    found_.push_back(u);
+    found_[count_] = {u, place};
+    count_ += reached_.insert(u);
+    ++edges_;
   }
   return v;
 }

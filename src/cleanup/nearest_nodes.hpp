@@ -18,15 +18,26 @@ class NearestNodes {
   void start(Index v);
   /// The next node, or kNone if `most` nodes have been looked at, or all.
   Index next(std::size_t most);
-  /// The node from which v was reached; kNone for the first.
-  Index before(Index v) const { return before_[v]; }
+  /// Edges at the node that was next, if it is free; 0 if it is not.
+  int edges() const { return edges_; }
+  /// The node that was next, the one from which it was reached, and so on to the first that `is_end` holds for, which
+  /// must hold for the node where the walk began.
+  template <class Test>
+  void way_back(std::vector<Index>& way, const Test& is_end) const {
+    Found at = found_[left_ - 1];
+    for (way.assign(1, at.node); !is_end(at.node); way.push_back(at.node)) at = found_[at.from];
+  }
 
  private:
   const kernel::Mesh& mesh_;
-  std::vector<Index> found_;  ///< in the order in which they were reached
-  std::size_t left_ = 0;      ///< of `found_`: from here on nobody has looked
-  std::vector<Index> before_;
+  struct Found {
+    Index node, from;  ///< `from`: the place in `found_` of the node from which this one was reached
+  };
+  std::vector<Found> found_;  ///< in the order in which they were reached; with room for more
+  std::size_t count_ = 0;     ///< of `found_`
+  std::size_t left_ = 0;      ///< of those: from here on nobody has looked
   kernel::MarkSet reached_;
+  int edges_ = 0;
 };
 
 }  // namespace qmorph::cleanup

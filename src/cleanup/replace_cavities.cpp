@@ -130,18 +130,18 @@ class Replacing {
     for (int reached = 0; reached < limits_.most_nodes && !budget_.is_spent();) {
       const Index u = nearest_.next(kMostLooks);
       if (u == kNone) return false;
+      if (nearest_.edges() == kRegular) continue;  // nearly always
       if (score_.excess(u) == 0 || mesh_.valence(u) > kMostValence || cavity_.is_inside(u)) continue;
       ++reached;
       mesh_.add_work(cavity_.faces().size());
-      if (cavity_.add_nodes(way_to(u), limits_.most_quads) && replace(accept, gain)) return true;
+      if (cavity_.add_nodes(way_there(), limits_.most_quads) && replace(accept, gain)) return true;
     }
     return false;
   }
 
-  /// The free nodes on the way from the cavity to u.
-  const std::vector<Index>& way_to(Index u) {
-    way_.assign(1, u);
-    while (!cavity_.touches(way_.back())) way_.push_back(nearest_.before(way_.back()));
+  /// The free nodes on the way from the cavity to the node that was nearest.
+  const std::vector<Index>& way_there() {
+    nearest_.way_back(way_, [&](Index w) { return cavity_.touches(w); });
     std::erase_if(way_, [&](Index w) { return !mesh_.is_free(w); });
     return way_;
   }
@@ -192,6 +192,7 @@ class Replacing {
     return double(folded) <= kMostFolded * double(faces.size());
   }
 
+  static constexpr int kRegular = 4;              ///< edges at a free node
   static constexpr std::size_t kMostLooks = 600;  ///< nodes among which irregular ones are looked for
 
   kernel::Mesh& mesh_;

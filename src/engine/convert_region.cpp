@@ -123,17 +123,18 @@ class RegionConverter {
   /// in a sharp corner as rows from there, if they are worth more and the worst is no worse.
   void take_chords(Attempt& best) {
     constexpr double kPoor = 0.3;
+    Worth worth = attempts_.judge(best.mesh);
     for (const auto lay : {bands::lay_chords, bands::lay_blade}) {
-      const Worth worth = attempts_.judge(best.mesh);
       if (best.fault || worth.least >= kPoor) return;
       auto laid_mesh = lay(region_);
       if (!laid_mesh) continue;
       Attempt laid = attempts_.begin(std::move(*laid_mesh), options_, attempts_.left(), Way::without_front);
       attempts_.finish(laid);
-      if (laid.fault || !is_better(attempts_.judge(laid.mesh), worth)) continue;
+      const Worth other = attempts_.judge(laid.mesh);
+      if (laid.fault || !is_better(other, worth)) continue;
       // Rows of a crescent are long and thin anyway; then right angles are what is left to gain.
       if (lay == bands::lay_blade && mean_sine(laid.mesh) < mean_sine(best.mesh)) continue;
-      best = std::move(laid);
+      best = std::move(laid), worth = other;
     }
   }
 

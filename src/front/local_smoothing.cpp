@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "front/step.hpp"
 #include "geometry/predicates.hpp"
@@ -27,6 +29,14 @@ constexpr double kSizeShare = 0.75;
 /// A node with more edges stays: it would be looked at with each step near it, and no move makes all its elements good.
 constexpr std::size_t kMostSpokes = 48;
 
+/// An edge at a node, and the face that follows it counter-clockwise.
+struct Spoke {
+  Vec2 end;
+  Vec2 opposite;  ///< if a quad follows, its corner opposite the node
+  bool is_quad;
+};
+using SpokeBuffer = std::array<Spoke, kMostSpokes + 1>;
+
 /// What is around a node, looked at once; of a node with more than kMostSpokes edges, one more than those.
 struct Surrounding {
   std::span<const Spoke> spokes;  ///< counter-clockwise
@@ -38,25 +48,25 @@ struct Surrounding {
   const Spoke& after(const Spoke& spoke) const { return &spoke == &spokes.back() ? spokes.front() : *(&spoke + 1); }
 };
 
-Surrounding look_around(Step& step, Index v) {
-  const Mesh& mesh = step.mesh;
+/// `v` is inside: there are faces all around. Without branches on what they are, which no processor can predict.
+Surrounding look_around(const Mesh& mesh, Index v, SpokeBuffer& spokes) {
   Surrounding s;
-  step.spokes.clear();
-  const Index face_before = mesh.face(Mesh::twin(mesh.out(v)));  // on its right; v is inside
-  bool was_triangle = mesh.is_triangle(face_before);
-  bool was_quad = mesh.is_quad(face_before);
+  std::size_t count = 0;
+  Index degree_before = mesh.degree(mesh.face(Mesh::twin(mesh.out(v))));  // of the face on its right
   for (Index h : mesh.around(v)) {
-    const Index f = mesh.face(h), end = mesh.target(h);
-    const bool is_triangle = mesh.is_triangle(f), is_quad = mesh.is_quad(f);
-    step.spokes.push_back({mesh.point(end), is_quad ? mesh.point(mesh.target(mesh.next(h))) : Vec2(0, 0), is_quad});
-    if (!is_triangle) ++s.quads;
-    if (is_triangle && !was_triangle) s.outgoing = h, ++s.front_edges;
-    if (!is_triangle && was_triangle) s.incoming = Mesh::twin(h), ++s.front_edges;
-    if (is_quad && was_quad && s.behind == kNone) s.behind = end;
-    was_triangle = is_triangle, was_quad = is_quad;
-    if (step.spokes.size() > kMostSpokes) break;
+    const Index degree = mesh.degree(mesh.face(h)), end = mesh.target(h);
+    const bool is_triangle = degree == 3, was_triangle = degree_before == 3;
+    const bool is_behind = degree == 4 && degree_before == 4 && s.behind == kNone;
+    spokes[count++] = {mesh.point(end), mesh.point(mesh.target(mesh.next(h))), degree == 4};
+    s.quads += !is_triangle;
+    s.front_edges += is_triangle != was_triangle;
+    s.outgoing = is_triangle > was_triangle ? h : s.outgoing;
+    s.incoming = is_triangle < was_triangle ? Index(Mesh::twin(h)) : s.incoming;
+    s.behind = is_behind ? end : s.behind;
+    degree_before = degree;
+    if (count > kMostSpokes) break;
   }
-  s.spokes = step.spokes;
+  s.spokes = {spokes.data(), count};
   return s;
 }
 
@@ -188,7 +198,8 @@ bool move_guarded(kernel::Mesh& mesh, Index v, const Vec2& goal, const Surroundi
 bool smooth_node(Step& step, Index v) {
   kernel::Mesh& mesh = step.mesh;
   if (!mesh.is_free(v)) return false;
-  const Surrounding s = look_around(step, v);
+  SpokeBuffer spokes;
+  const Surrounding s = look_around(mesh, v, spokes);
   if (s.spokes.size() > kMostSpokes) return false;
   const Vec2 start = mesh.point(v);
   Vec2 goal;

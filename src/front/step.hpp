@@ -16,13 +16,6 @@
 
 namespace qmorph::front {
 
-/// An edge at a node, and the face that follows it counter-clockwise.
-struct Spoke {
-  Vec2 end;
-  Vec2 opposite;  ///< of the quad that follows, the corner opposite the node
-  bool is_quad;   ///< what follows is no triangle
-};
-
 struct Step {
   kernel::Mesh& mesh;
   Front& front;
@@ -34,7 +27,6 @@ struct Step {
 
   // Scratch space, kept to avoid allocations.
   std::vector<Index> scratch{};
-  std::vector<Spoke> spokes{};
   kernel::MarkSet marked{};
 
   StepNotes notes{};  ///< for those who watch

@@ -2,6 +2,7 @@
 #pragma once
 /// A set of indices that is emptied in constant time: for small sets that are filled again and again.
 
+#include <utility>
 #include <vector>
 
 #include "qmorph/index.hpp"
@@ -18,9 +19,7 @@ class MarkSet {
   /// True if i was not in the set.
   bool insert(Index i) {
     if (i >= rounds_.size()) rounds_.resize(std::size_t(i) + 1 + i / 2, 0);
-    if (rounds_[i] == round_) return false;
-    rounds_[i] = round_;
-    return true;
+    return std::exchange(rounds_[i], round_) != round_;
   }
   void erase(Index i) {
     if (i < rounds_.size()) rounds_[i] = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "geometry/predicates.hpp"
 
@@ -312,28 +313,26 @@ NodeId Mesh::open_quad(AnyHalfEdge h, AnyHalfEdge k, Vec2 p) {
 }
 
 FaceId Mesh::make_face(std::span<const Index> ring, std::span<const Index> inside) {
-  auto& [sides, corners, inner, origins] = scratch_;
-  sides.assign(ring.begin(), ring.end());
-  corners.clear(), inner.clear(), origins.clear();
-  for (Index r : ring) corners.push_back(origin(r));
-  std::sort(sides.begin(), sides.end());
-  std::sort(corners.begin(), corners.end());
-  const auto on_ring = [&sides = sides](Index h) { return std::binary_search(sides.begin(), sides.end(), h); };
-  for (Index f : inside) {
-    for (HalfEdgeId h : sides_of(f)) {
-      if (!on_ring(h)) {
-        origins.push_back(origin(h));
-        if ((h & 1) == 0) inner.push_back(h);
-      }
-    }
-  }
+  constexpr Index kOnRing = kNone - 1;  // for the face of the ring's half-edges, until all is gathered
+  auto& [faces, inner, origins] = scratch_;
+  faces.clear(), inner.clear(), origins.clear();
   for (Index r : ring) {
     const Index v = origin(r);
     if (face(out(v)) != kNone) set_out(v, r);
   }
-  for (Index v : origins) {
-    if (is_live_vertex(v) && !std::binary_search(corners.begin(), corners.end(), v)) kill_vertex(v);
+  for (Index r : ring) faces.push_back(std::exchange(half_edges_[r].face, kOnRing));
+  for (Index f : inside) {
+    for (HalfEdgeId h : sides_of(f)) {
+      if (face(h) == kOnRing) continue;
+      origins.push_back(origin(h));
+      if ((h & 1) == 0) inner.push_back(h);
+    }
   }
+  // From a node on the ring leads one of its half-edges, or the boundary's.
+  std::erase_if(origins, [&](Index v) { return face(out(v)) == kOnRing || face(out(v)) == kNone; });
+  for (std::size_t i = ring.size(); i-- > 0;) half_edges_[ring[i]].face = faces[i];
+  for (Index v : origins)
+    if (is_live_vertex(v)) kill_vertex(v);
   for (Index h : inner) kill_edge(h);
   for (Index f : inside) kill_face(f);
   const FaceId face = new_face();

@@ -271,7 +271,7 @@ class Mesh {
   Pool<Face> face_pool_;
   /// Of make_face(), kept to avoid allocations.
   struct Scratch {
-    std::vector<Index> sides, corners;
+    std::vector<Index> faces;    ///< of the ring's half-edges
     std::vector<Index> inner;    ///< one half-edge of every edge that goes
     std::vector<Index> origins;  ///< of half-edges inside
   };

@@ -14,11 +14,11 @@ using cleanup::NearestNodes;
 
 constexpr std::size_t kAll = 1000;
 
-/// Edges on the way back to where the walk began.
-int steps_to(const NearestNodes& nearest, Index v) {
-  int steps = 0;
-  for (; nearest.before(v) != kNone; v = nearest.before(v)) ++steps;
-  return steps;
+/// From the node that was next to where the walk began.
+std::vector<Index> way_back(const NearestNodes& nearest, Index start) {
+  std::vector<Index> way;
+  nearest.way_back(way, [&](Index v) { return v == start; });
+  return way;
 }
 
 }  // namespace
@@ -30,13 +30,17 @@ TEST_CASE("nearest nodes: each node of a grid comes once, and none before one th
     nearest.start(start);
     CHECK(nearest.next(kAll) == start);
     std::vector<bool> seen(mesh.vertex_slots(), false);
-    int far = 0, found = 1;
+    std::size_t far = 0;
+    int found = 1;
     for (Index v; (v = nearest.next(kAll)) != kNone; ++found) {
       CHECK_FALSE(seen[v]);
       seen[v] = true;
-      CHECK(steps_to(nearest, v) >= far);
-      far = steps_to(nearest, v);
-      CHECK(mesh.find(v, nearest.before(v)) != kNone);
+      const std::vector<Index> way = way_back(nearest, start);
+      CHECK(way.front() == v);
+      CHECK(way.size() >= far);
+      far = way.size();
+      for (std::size_t i = 0; i + 1 < way.size(); ++i) CHECK(mesh.find(way[i], way[i + 1]) != kNone);
+      CHECK(nearest.edges() == (mesh.is_free(v) ? int(mesh.valence(v)) : 0));
     }
     CHECK(found == 81 - 4);  // the corners have no free neighbour
   }
