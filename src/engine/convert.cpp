@@ -13,6 +13,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/surface.hpp"
 #include "layers/find_layers.hpp"
+#include "layers/meetings.hpp"
 #include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
@@ -114,6 +115,48 @@ bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
   return is_any;
 }
 
+/// Nothing where no valid quads are found for a region beside layers; its nodes are marked in `stuck` then.
+std::optional<SurfaceWork> convert_beside(const layers::Layers& layers, const Patch& patch,
+                                          const std::optional<Plane>& plane, const Options& options, Budget& budget,
+                                          std::vector<bool>& stuck) {
+  std::vector<bool> stuck_now(layers.patch.points.size(), false);
+  SurfaceWork work = convert_triangles(layers.patch, plane, options, budget, &stuck_now);
+  if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
+    add_layers(patch, layers, plane, options, work);
+    return work;
+  }
+  for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
+  return {};
+}
+
+/// Where two layers end close to each other the front may have room for poor quads only. A few cells there are left to
+/// the front as well, if that makes it better.
+void give_up_narrow_cells(const layers::Layers& layers, const Patch& patch, const std::optional<Plane>& plane,
+                          const Options& options, Budget& budget, std::vector<bool> without, SurfaceWork& work) {
+  constexpr double kMostCells = 0.01, kMuch = 0.02, kLittle = 0.005;
+  const auto meetings_of = [&](const layers::Layers& some, const SurfaceWork& result) {
+    return layers::look_at_meetings(some, patch.quads.size(), result.conversion.mesh);
+  };
+  const layers::Meetings before = meetings_of(layers, work);
+  if (before.narrow_nodes.empty()) return;
+  for (Index v : before.narrow_nodes) without[v] = true;
+  const auto fewer = layers::find_layers(patch, without, options.crease_angle);
+  if (!fewer || double(fewer->quads) < (1 - kMostCells) * double(layers.quads)) return;
+  Options again = options;
+  if (options.progress) again.progress = [&](std::string_view stage, double) { return options.progress(stage, 1); };
+  std::optional<SurfaceWork> other;
+  try {
+    other = convert_beside(*fewer, patch, plane, again, budget, without);
+  } catch (const SurfaceError&) {  // it was valid with more
+  }
+  if (!other || other->conversion.mesh.triangles.size() > work.conversion.mesh.triangles.size()) return;
+  const layers::Meetings after = meetings_of(*fewer, *other);
+  const bool is_better = after.poor < before.poor || after.least > before.least + kMuch;
+  // The budget may have been spent on the poor ones, and what is left makes the others worse.
+  const bool is_worse = after.poor > before.poor || after.least < before.least || after.mean < before.mean - kLittle;
+  if (is_better && !is_worse) work = std::move(*other);
+}
+
 }  // namespace
 
 /// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
@@ -132,13 +175,10 @@ SurfaceWork convert_patch(const Patch& patch, const Options& options, Budget& bu
       require_no_overlap(whole.regions, *plane);
       if (!layers->patch.triangles.empty() && mark_grids(whole, stuck)) continue;
     }
-    std::vector<bool> stuck_now(layers->patch.points.size(), false);
-    SurfaceWork work = convert_triangles(layers->patch, plane, options, budget, &stuck_now);
-    if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
-      add_layers(patch, *layers, plane, options, work);
-      return work;
-    }
-    for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
+    auto work = convert_beside(*layers, patch, plane, options, budget, stuck);
+    if (!work) continue;
+    give_up_narrow_cells(*layers, patch, plane, options, budget, stuck, *work);
+    return std::move(*work);
   }
   return convert_triangles(patch, plane, options, budget, nullptr);
 }
