@@ -29,6 +29,13 @@ def start_gmsh():
     gmsh.option.setNumber("General.Terminal", 0)
 
 
+def restart_gmsh():
+    """With its options as they are by default: gmsh.clear() leaves those that a .geo has set."""
+    gmsh.finalize()
+    _running.clear()
+    start_gmsh()
+
+
 class Surface:
     """Triangles and quads of one surface entity, as rows of Mesh.points."""
 

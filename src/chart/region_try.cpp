@@ -17,8 +17,6 @@
 namespace qmorph::chart {
 namespace {
 
-/// What everything that is not counted costs a try for each triangle: to divide, to flatten, to settle.
-constexpr std::size_t kWorkToBegin = 120;
 constexpr WindowSize kCleaningWindow{8, 5, 800, true};
 constexpr WindowSize kCancellingWindow{14, 9, 1500, true};
 

@@ -17,6 +17,8 @@
 
 namespace qmorph::chart {
 
+/// What everything that is not counted costs a try for each triangle: to divide, to flatten, to settle.
+inline constexpr std::size_t kWorkToBegin = 120;
 /// With more elements turned over than this, the fault is not one of single places.
 inline constexpr std::size_t kFewTurned = 4;
 /// With more than this in a region that is not large, another try has failed as well, as good as always. Where parts

@@ -1,150 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "qmorph/convert.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <optional>
+#include <utility>
 
 #include "chart/convert_curved.hpp"
-#include "engine/canonical/rounded.hpp"
-#include "engine/collector.hpp"
-#include "engine/convert_region.hpp"
-#include "engine/grid_pairs.hpp"
-#include "engine/overlap.hpp"
-#include "engine/pipeline.hpp"
+#include "engine/convert_triangles.hpp"
+#include "engine/convert_with_layers.hpp"
 #include "engine/surface.hpp"
-#include "layers/find_layers.hpp"
-#include "space/creases.hpp"
 #include "space/faults.hpp"
-#include "stretch/convert_stretched.hpp"
 
 namespace qmorph {
 namespace {
-
-kernel::Mesh convert_flat(const Region& region, const Plane& plane, const Options& options, Budget& budget,
-                          ConversionReport& report, Record& record) {
-  if (options.layers)
-    if (auto quads = stretch::convert_stretched(region, plane, options, budget, report, record))
-      return std::move(quads->mesh);
-  return convert_region(region, plane, options, budget, report, record);
-}
-
-/// With rounded coordinates, which the region has meanwhile; nothing where they are not to be rounded, or where an
-/// element would be bad without that.
-std::optional<kernel::Mesh> convert_rounded(Region& region, const Plane& plane, const Options& options, Budget& budget,
-                                            ConversionReport& report, Record& record) {
-  auto rounding = canonical::round_points(region, plane);
-  if (!rounding) return {};
-  std::optional<kernel::Mesh> mesh;
-  try {
-    mesh = convert_flat(region, rounding->plane, options, budget, report, record);
-    canonical::put_back(*mesh, *rounding, region);
-    for (auto& stage : record.stages)
-      if (stage) canonical::put_back(*stage, *rounding, region);
-  } catch (const SurfaceError&) {
-  }
-  region.points = std::move(rounding->exact);
-  if (mesh && !find_fault(*mesh, region, plane)) return mesh;
-  report = {};
-  record = {};
-  return {};
-}
-
-/// All triangles by the front, beside the quads that are there. Regions that no valid quads are found for are left out
-/// of the result, and their nodes are marked in `stuck`; if that is null, they are an error.
-SurfaceWork convert_triangles(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
-                              Budget& budget, std::vector<bool>* stuck) {
-  if (patch.triangles.empty()) return {{Collector(patch, {}, {}).finish(), {}}, {}};
-  if (!plane) return chart::convert_curved(patch, options, budget, stuck);
-  Surface surface(patch, *plane);
-  require_no_overlap(surface.regions, surface.plane);
-  std::vector<char> is_stuck(surface.regions.size(), false), is_converted = is_stuck;
-  const auto work = [&](std::size_t r, const Options& own, Budget& budget_of_region, ConversionReport& report,
-                        Record& record) {
-    try {
-      Region& region = surface.regions[r];
-      auto mesh = convert_rounded(region, surface.plane, own, budget_of_region, report, record);
-      if (!mesh) mesh = convert_flat(region, surface.plane, own, budget_of_region, report, record);
-      is_converted[r] = true, is_stuck[r] = false;
-      return std::move(*mesh);
-    } catch (const SurfaceError&) {
-      if (!stuck || is_converted[r]) throw;
-      is_stuck[r] = true;
-      record = {};
-      if (wants_stages(own)) record.stages.front() = kernel::Mesh();
-      return kernel::Mesh();
-    }
-  };
-  SurfaceWork result = work_on_regions(surface, options, budget, work);
-  for (std::size_t r = 0; r < is_stuck.size(); ++r)
-    if (is_stuck[r])
-      for (Index v : surface.regions[r].node) (*stuck)[v] = true;
-  return result;
-}
-
-QuadMesh as_it_was(const Patch& patch) {
-  QuadMesh mesh{patch.points, {}, patch.triangles, patch.quads};
-  for (Index i = 0; i < patch.points.size(); ++i) mesh.source.push_back(i);
-  return mesh;
-}
-
-/// What the front has made of the rest, as a conversion of the patch.
-void add_layers(const Patch& patch, const layers::Layers& layers, const std::optional<Plane>& plane,
-                const Options& options, SurfaceWork& work) {
-  auto& [mesh, report] = work.conversion;
-  report.layer_quads = layers.quads;
-  report.regions = layers.regions;
-  report.odd_regions = layers.odd_regions;
-  auto& stages = work.record.stages;
-  if (wants_stages(options)) {
-    stages.resize(kStages, mesh);  // of nothing, if nothing was left
-    stages.front() = as_it_was(patch);
-    if (plane) work.record.normal = plane->normal();
-  }
-  const auto mend_sources = [&](QuadMesh& one) {
-    for (Index& source : one.source)
-      if (source != kNone && source >= patch.points.size()) source = kNone;  // in the middle of a column
-  };
-  mend_sources(mesh);
-  std::for_each(stages.begin(), stages.end(), mend_sources);
-}
-
-/// Marks the nodes of regions that are grids of cells that are no layers'. Whether there are any.
-bool mark_grids(const Surface& surface, std::vector<bool>& nodes) {
-  bool is_any = false;
-  for (const Region& region : surface.regions) {
-    if (!is_unstretched_grid(kernel::Mesh(region.points, region.triangles, region.open))) continue;
-    is_any = true;
-    for (Index v : region.node) nodes[v] = true;
-  }
-  return is_any;
-}
-
-/// Layers stay the quads that they are, and the front has what is left. Where that is too odd a shape for quads, the
-/// layers around it are left to the front as well, and at last all of them.
-SurfaceWork convert_with_layers(const Patch& patch, const std::optional<Plane>& plane, const Options& options,
-                                Budget& budget) {
-  constexpr int kTries = 2;
-  std::vector<bool> stuck(patch.points.size(), false);
-  for (int i = 0; options.layers && i < kTries; ++i) {
-    const auto layers = layers::find_layers(patch, stuck, space::crease_angle_of(patch, options.crease_angle));
-    if (!layers) break;
-    if (plane && i == 0) {
-      const Surface whole(patch, *plane);
-      require_fronts(whole.regions, *plane);
-      require_no_overlap(whole.regions, *plane);
-      if (!layers->patch.triangles.empty() && mark_grids(whole, stuck)) continue;
-    }
-    std::vector<bool> stuck_now(layers->patch.points.size(), false);
-    SurfaceWork work = convert_triangles(layers->patch, plane, options, budget, &stuck_now);
-    if (std::find(stuck_now.begin(), stuck_now.end(), true) == stuck_now.end()) {
-      add_layers(patch, *layers, plane, options, work);
-      return work;
-    }
-    for (std::size_t v = 0; v < stuck.size(); ++v) stuck[v] = stuck[v] || stuck_now[v];
-  }
-  return convert_triangles(patch, plane, options, budget, nullptr);
-}
 
 /// Where triangles of a curved surface are turned over among their neighbours, quads that are good by these very triangles
 /// are so, too. Then, and where no valid quads are found, the nodes of such triangles are put right first.

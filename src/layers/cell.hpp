@@ -19,8 +19,8 @@ struct Cell {
   double aspect() const { return length / height; }
 };
 
-/// No corner is sharper than 4 degrees, or blunter than 176: where two walls meet in a sharp tip without a fan, the last
-/// cells of both slant, and are what Gmsh makes with quads, too.
+/// No corner is sharper than 4 degrees, or blunter than 176: where two walls meet in a sharp tip without a fan, the
+/// last cells of both slant, as Gmsh's own quads do.
 bool is_convex(const Cell& cell);
 
 /// The cell on side `base` whose diagonal is `diagonal`, one of the other two sides of that triangle and no wall.

@@ -185,6 +185,27 @@ void add_stretched_surface(int tag) {
 
 }  // namespace
 
+TEST_CASE("layers of Gmsh: where those of two walls end close to each other, the front has room for good quads") {
+  const TemporaryDirectory directory;
+  write_file(directory / "corner.geo",
+             "Point(1)={0,.7,0,.0449}; Point(2)={0,0,0,.0449}; Point(3)={.5,0,0,.0449}; Point(4)={.5,.7,0,.0449};\n"
+             "Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Curve Loop(1)={1:4}; Plane Surface(1)={1};\n"
+             "Field[1]=BoundaryLayer; Field[1].EdgesList={1,2}; Field[1].NodesList={1,3}; Field[1].hwall_n=.0005;\n"
+             "Field[1].ratio=1.36; Field[1].thickness=.058; Field[1].hfar=.1; Field[1].Quads=0;\n"
+             "BoundaryLayer Field=1;\n");
+  {
+    const RunningGmsh running;
+    gmsh::option::setNumber("General.Verbosity", 0);
+    gmsh::open(directory / "corner.geo");
+    gmsh::model::mesh::generate(2);
+    gmsh::write(directory / "corner.msh");
+  }
+  const Result result = run_qmorph({directory / "corner.msh", "-o", directory / "out.msh"});
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  CHECK(run_qmorph({directory / "out.msh", "--check", "--min-sj", "0.3"}).status == 0);
+}
+
 TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, and a warning and --check say so") {
   const TemporaryDirectory directory;
   make_msh(directory / "in.msh", 4.1, false, [] { add_stretched_surface(1); });
