@@ -178,7 +178,7 @@ ConvertedSurface Run::read(std::uint32_t entity) {
   if (task_ == Task::convert)
     refuse_bad_quads(converted.surface);
   else
-    free_quads(converted.surface);
+    refuse_crossed_quads(converted.surface), free_quads(converted.surface);
   report_.read_seconds += watch.lap();
   return converted;
 }
