@@ -38,7 +38,7 @@ void refuse_crossed_quads(const SurfaceMesh& surface) {
       if (!sides) sides.emplace(patch.points.size(), patch.triangles, patch.quads);
       const Index first = 4 * (Index(patch.triangles.size()) + q);
       const auto is_outer = [&](Index k) { return sides->opposite(first + k) == kNone; };
-      if ((is_outer(0) && is_outer(2)) || (is_outer(1) && is_outer(3))) throw crossed_quad(part.quad_tags[q], p[0]);
+      if ((is_outer(0) && is_outer(2)) || (is_outer(1) && is_outer(3))) throw crossed_quad(part.quad_tags[q], p);
     }
   }
 }

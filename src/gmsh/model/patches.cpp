@@ -147,7 +147,7 @@ void refuse_crossed_quads(const ModelMesh& mesh, const Elements& elements) {
   for (std::size_t q = 0; q < elements.quads.size(); ++q) {
     space::Corners<4> p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.points[elements.quads[q][k]];
-    if (space::crosses_itself(p)) throw crossed_quad(elements.quad_tags[q], p[0]);
+    if (space::crosses_itself(p)) throw crossed_quad(elements.quad_tags[q], p);
   }
 }
 
@@ -313,10 +313,12 @@ SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedE
   return surface;
 }
 
-SurfaceError crossed_quad(std::size_t tag, const Eigen::Vector3d& place) {
+SurfaceError crossed_quad(std::size_t tag, const std::array<Eigen::Vector3d, 4>& corners) {
   return SurfaceError(
-      fmt::format("its quad {} crosses itself at {}: list its nodes in order around it", tag, describe(place)),
-      {.kind = ErrorKind::bad_element, .place = place, .subject = ErrorSubject{ErrorSubject::Kind::element, tag}});
+      fmt::format("its quad {} crosses itself, {}, {}, {}, {}: list its nodes in order around it, or "
+                  "move the one that lies beyond the opposite side",
+                  tag, describe(corners[0]), describe(corners[1]), describe(corners[2]), describe(corners[3])),
+      {.kind = ErrorKind::bad_element, .place = corners[0], .subject = ErrorSubject{ErrorSubject::Kind::element, tag}});
 }
 
 }  // namespace qmorph::adapter

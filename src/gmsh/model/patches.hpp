@@ -2,6 +2,7 @@
 #pragma once
 /// From the mesh of a model to what the engine takes.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ struct SurfaceMesh {
 SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
                          std::vector<Index>& local);
 
-/// What is said of a quad two sides of which cross, with one of its corners.
-SurfaceError crossed_quad(std::size_t tag, const Eigen::Vector3d& place);
+/// What is said of a quad two sides of which cross.
+SurfaceError crossed_quad(std::size_t tag, const std::array<Eigen::Vector3d, 4>& corners);
 
 }  // namespace qmorph::adapter
