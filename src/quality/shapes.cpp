@@ -95,7 +95,12 @@ class Shapes::InSpace {
   template <std::size_t N>
   std::array<double, N> sines(Index element, const Corners<N>& p, const std::array<Index, N>& nodes) const {
     const bool asks_mesh = !result_ || space::is_on_unsure_ground(*result_, element, p, unsure_);
-    return asks_mesh ? space::corner_sines(p, by_mesh_->of<N>(element)) : result_->sines(element, p, nodes);
+    if (!asks_mesh) return result_->sines(element, p, nodes);
+    std::array<double, N> sines = space::corner_sines(p, by_mesh_->of<N>(element));
+    if constexpr (N == 4)
+      if (double& least = *std::min_element(sines.begin(), sines.end()); space::crosses_itself(p))
+        least = -std::abs(least);
+    return sines;
   }
 
  private:

@@ -39,6 +39,20 @@ std::array<double, N> corner_sines(const Corners<N>& p, const CornerNormals<N>& 
   return sines;
 }
 
+/// Cosine between normals below which less than 37 degrees are left between two elements, or halves of one.
+constexpr double kFold = -0.8;
+
+/// Two of the quad's sides cross, as where its nodes are not listed in their order around it: along either diagonal one
+/// half lies back over the other. Normals of what is around it cannot tell where little is.
+inline bool crosses_itself(const Corners<4>& p) {
+  const auto is_folded_along = [&](std::size_t i) {
+    const Eigen::Vector3d diagonal = p[(i + 2) % 4] - p[i];
+    const Eigen::Vector3d a = diagonal.cross(p[(i + 3) % 4] - p[i]), b = (p[(i + 1) % 4] - p[i]).cross(diagonal);
+    return a.dot(b) < kFold * a.norm() * b.norm();
+  };
+  return is_folded_along(0) && is_folded_along(1);
+}
+
 /// Cosine between the cross product of a corner's sides and the normal that is nearer to it, the smallest of the
 /// element: near 0 it is a matter of chance which way a corner turns.
 template <std::size_t N>

@@ -51,8 +51,6 @@ std::size_t bad_corner(const std::array<double, N>& sines) {
   return *least > kLeastSine<N> ? N : std::size_t(least - sines.begin());
 }
 
-constexpr double kFold = -0.8;  ///< cosine between normals: less than 37 degrees are left between the elements
-
 /// Joined triangles of which one lies back over the other, or has no normal. Where a thin tube has few triangles around
 /// they turn by a right angle and more, and elements that are not turned over can be found all the same.
 bool are_folded(const Background& surface, Index t, Index other) {
@@ -75,7 +73,9 @@ class Neighbourhood {
   Index elements() const { return sides_.elements(); }
   /// Corner of a quad that is bad, or 4.
   std::size_t bad_corner_of_quad(Index q) const {
-    return bad_corner(corner_sines(corners_of<4>(points_, quads_[q]), normals_.of<4>(Index(triangles_.size()) + q)));
+    const Corners<4> p = corners_of<4>(points_, quads_[q]);
+    const std::size_t bad = bad_corner(corner_sines(p, normals_.of<4>(Index(triangles_.size()) + q)));
+    return bad == 4 && crosses_itself(p) ? 0 : bad;
   }
   /// It is turned over, or has a corner that is not convex.
   bool has_bad_corner(Index element) const {

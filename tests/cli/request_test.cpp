@@ -79,7 +79,6 @@ TEST_CASE("request: options that would have no effect are refused") {
       {{"--check", "-o", "b.msh"}, "--check writes nothing; leave out -o"},
       {{"--cleanup-only", "--layers", "on"}, "--cleanup-only finds quads"},
       {{"--cleanup-only", "--all-quad"}, "--cleanup-only takes curves as they are"},
-      {{"--keep-curves", "3"}, "without --all-quad"},
       {{"--depfile", "b.d", "-o", "-"}, "give -o a name"},
       {{"--stage", "front"}, "are for pictures"},
       {{"--elements", "S"}, "goes with --for"},

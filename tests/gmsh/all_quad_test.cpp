@@ -341,7 +341,10 @@ TEST_CASE("--all-quad: messages that go with it") {
   make_squares(directory, 4);
   const std::string in = directory / "in.msh", out = directory / "out.msh";
   CHECK(run_qmorph({in, "-o", out, "--all-quad", "--cleanup-only"}).status == 1);
-  CHECK(run_qmorph({in, "-o", out, "--keep-curves", "1"}).status == 1);
+  const Result alone = run_qmorph({in, "-o", out, "--keep-curves", "1"});
+  CHECK(alone.status == 1);
+  CHECK(alone.err.find("without --all-quad") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(out));
   CHECK(run_qmorph({in, "-o", out, "--all-quad", "--keep-curves", "99"}).status == 1);
 }
 

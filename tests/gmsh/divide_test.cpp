@@ -260,10 +260,15 @@ TEST_CASE("divide: curves that are to be kept keep Gmsh's number") {
   const Snapshot free = convert(script).snapshot;
   std::size_t odd_one_out = 0;
   for (const char* kept : {"1", "2", "3", "4", "5", "6"}) {
-    const Snapshot after = convert(script, {"--all-quad", "--keep-curves", kept}).snapshot;
+    const Snapshot after = convert(script, {"--keep-curves", kept}).snapshot;
     odd_one_out += segments(after, std::stoi(kept)) != segments(free, std::stoi(kept));
   }
   CHECK(odd_one_out == 1);
+  const TemporaryDirectory directory;
+  write_file(directory / "in.geo", script);
+  const Result unknown = run_qmorph({directory / "in.geo", "-o", directory / "out.msh", "--keep-curves", "3,99"});
+  CHECK(unknown.status == 1);
+  CHECK(unknown.err.find("no curve 99") != std::string::npos);
 }
 
 TEST_CASE("divide: regions that embedded curves cut off are even, each for itself") {

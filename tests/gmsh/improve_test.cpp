@@ -99,3 +99,36 @@ TEST_CASE("--cleanup-only: triangles alone are paired") {
   CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--cleanup-only"}).status == 0);
   CHECK(difference(read_snapshot(directory / "in.msh"), read_snapshot(directory / "out.msh"), {1, 2}) == "");
 }
+
+TEST_CASE("improve_quads: a quad whose nodes are not listed in order around it is named") {
+  for (const double height : {0.0, 0.1})  // of a bowl
+    for (const int corner : {0, 5, 2})    // cell at a corner, inside, at a rim
+      for (const std::array<int, 4>& order : {std::array{0, 1, 3, 2}, {0, 2, 1, 3}}) {
+        CAPTURE(height);
+        CAPTURE(corner);
+        CAPTURE(order[1]);
+        Grid grid;
+        auto nodes = grid.nodes();
+        for (auto& p : nodes) p = {4 * p[0], 4 * p[1], height * 16 * (p[0] * p[0] + p[1] * p[1])};
+        std::vector<std::string> elements;
+        for (int j = 0; j < grid.n; ++j)
+          for (int i = 0; i < grid.n; ++i) {
+            std::array<int, 4> quad = {grid.node(i, j), grid.node(i + 1, j), grid.node(i + 1, j + 1),
+                                       grid.node(i, j + 1)};
+            if (i + 4 * j == corner) quad = {quad[order[0]], quad[order[1]], quad[order[2]], quad[order[3]]};
+            elements.push_back(row("3 2 0 1", quad));
+          }
+        const TemporaryDirectory directory;
+        write_file(directory / "in.msh", msh22(nodes, elements));
+        const std::string quad = "quad " + std::to_string(corner + 1) + " ";
+        for (const bool improves : {false, true}) {
+          CAPTURE(improves);
+          std::vector<std::string> words = {directory / "in.msh", "-o", directory / "out.msh"};
+          if (improves) words.emplace_back("--cleanup-only");
+          const Result result = run_qmorph(words);
+          CHECK(result.status == 3);
+          CHECK_MESSAGE(result.err.find(quad) != std::string::npos, result.err);
+        }
+        CHECK(run_qmorph({directory / "in.msh", "--check"}).status == 6);
+      }
+}

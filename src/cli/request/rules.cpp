@@ -50,8 +50,6 @@ void check_conversion(const Request& request, Given given) {
     throw UsageError("--film shows the front, and --cleanup-only has none");
   if (has(given, "--layers") && request.cleanup_only)
     throw UsageError("--layers is about rows of triangles; --cleanup-only finds quads");
-  if (!request.keep_curves.empty() && !request.all_quad)
-    throw UsageError("--keep-curves means nothing without --all-quad");
 }
 
 /// The window asks for names of files itself.

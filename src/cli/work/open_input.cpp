@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cli/work/open_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "cli/process/reading_limits.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/raise.hpp"
+#include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
 #include "gmsh/volumes/volumes.hpp"
 #include "qmorph/error.hpp"
@@ -33,6 +36,19 @@ adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) 
   adapter::OpenedModel opened = adapter::open_model(call.request.input, options);
   call.begin(bad_input, "a crash while qmorph worked on " + name);
   return opened;
+}
+
+/// A geometry is meshed with Gmsh's number of segments on the curves that are named; a mesh has its segments, and only
+/// --all-quad would change them.
+void check_kept_curves(const Request& request, bool had_mesh) {
+  if (request.keep_curves.empty() || request.all_quad) return;  // --all-quad sees to it itself
+  if (had_mesh)
+    throw UsageError("--keep-curves: curves of a mesh get no node without --all-quad; leave --keep-curves out");
+  ::gmsh::vectorpair curves;
+  ::gmsh::model::getEntities(curves, 1);
+  for (const int tag : request.keep_curves)
+    if (std::find(curves.begin(), curves.end(), std::pair(1, tag)) == curves.end())
+      throw UsageError(fmt::format("the model has no curve {}", tag));
 }
 
 }  // namespace
@@ -67,6 +83,7 @@ adapter::OpenedModel open_for_conversion(const Call& call, const adapter::Output
                                                   .ignore_periodicity = request.ignore_periodicity,
                                                   .becomes_layers = request.layers,
                                                   .keep_curves = request.keep_curves});
+  check_kept_curves(request, opened.had_mesh);
   if (request.drop_volumes) adapter::drop_volumes();
   if (request.verbosity >= 1) name_ignored_options(request, opened, call.err);
   if (request.order_chosen) adapter::lower_model(static_cast<int>(adapter::get_option("Mesh.ElementOrder")));

@@ -11,6 +11,8 @@
 #include "qmorph/check.hpp"
 #include "qmorph/error.hpp"
 #include "quality/directed_size.hpp"
+#include "space/corners.hpp"
+#include "space/element_sides.hpp"
 
 namespace qmorph::adapter {
 
@@ -23,6 +25,22 @@ void refuse_bad_quads(const SurfaceMesh& surface) {
           {.kind = ErrorKind::bad_element,
            .place = bad->place,
            .subject = ErrorSubject{ErrorSubject::Kind::element, part.quad_tags[bad->quad]}});
+}
+
+void refuse_crossed_quads(const SurfaceMesh& surface) {
+  for (const SurfacePart& part : surface.parts) {
+    const Patch& patch = part.patch;
+    std::optional<space::ElementSides> sides;
+    for (Index q = 0; q < patch.quads.size(); ++q) {
+      space::Corners<4> p;
+      for (std::size_t k = 0; k < 4; ++k) p[k] = patch.points[patch.quads[q][k]];
+      if (!space::crosses_itself(p)) continue;
+      if (!sides) sides.emplace(patch.points.size(), patch.triangles, patch.quads);
+      const Index first = 4 * (Index(patch.triangles.size()) + q);
+      const auto is_outer = [&](Index k) { return sides->opposite(first + k) == kNone; };
+      if ((is_outer(0) && is_outer(2)) || (is_outer(1) && is_outer(3))) throw crossed_quad(part.quad_tags[q], p);
+    }
+  }
 }
 
 void warn_of_loose_parts(const ClassifiedMesh& model, std::vector<std::string>& warnings) {

@@ -188,6 +188,7 @@ ConvertedSurface Run::read(std::uint32_t entity) {
     if (has_only_facets(model_.mesh, converted.surface, options_.crease_angle))
       for (SurfacePart& part : converted.surface.parts) part.patch.is_smooth = true;
   } else {
+    refuse_crossed_quads(converted.surface);
     free_quads(converted.surface);
   }
   report_.read_seconds += watch.lap();

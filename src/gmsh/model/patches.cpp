@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/describe.hpp"
 #include "gmsh/model/high_order.hpp"
 #include "gmsh/model/orientation.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/element_types.hpp"
 #include "kernel/sort_unique.hpp"
 #include "qmorph/error.hpp"
+#include "space/corners.hpp"
 
 namespace qmorph::adapter {
 namespace {
@@ -140,6 +142,15 @@ void refuse_twins(const ModelMesh& mesh, const std::vector<std::array<Index, N>>
                      at_node(mesh, row, ErrorKind::not_manifold));
 }
 
+/// Such a quad is not joined to those around it as they are to each other, so that the surface may turn over there.
+void refuse_crossed_quads(const ModelMesh& mesh, const Elements& elements) {
+  for (std::size_t q = 0; q < elements.quads.size(); ++q) {
+    space::Corners<4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.points[elements.quads[q][k]];
+    if (space::crosses_itself(p)) throw crossed_quad(elements.quad_tags[q], p);
+  }
+}
+
 Orientation orient_surface(const ModelMesh& mesh, const Elements& elements, std::vector<Index>& local) {
   LocalNumbers number(local);
   std::vector<std::array<Index, 3>> triangles;
@@ -150,6 +161,7 @@ Orientation orient_surface(const ModelMesh& mesh, const Elements& elements, std:
   for (const auto& quad : elements.quads) quads.push_back(number(quad));
   const std::vector<Side> sides = sorted_sides(number.rows().size(), triangles, quads);
   Orientation orientation = orient(triangles.size() + quads.size(), sides);
+  if (orientation.defect) refuse_crossed_quads(mesh, elements);
   if (orientation.defect)
     throw SurfaceError(
         fmt::format("{}, from {} to {}", orientation.defect, describe_node(mesh, number.rows()[orientation.where.low]),
@@ -299,6 +311,14 @@ SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedE
     surface.parts.push_back(std::move(part));
   }
   return surface;
+}
+
+SurfaceError crossed_quad(std::size_t tag, const std::array<Eigen::Vector3d, 4>& corners) {
+  return SurfaceError(
+      fmt::format("its quad {} crosses itself, {}, {}, {}, {}: list its nodes in order around it, or "
+                  "move the one that lies beyond the opposite side",
+                  tag, describe(corners[0]), describe(corners[1]), describe(corners[2]), describe(corners[3])),
+      {.kind = ErrorKind::bad_element, .place = corners[0], .subject = ErrorSubject{ErrorSubject::Kind::element, tag}});
 }
 
 }  // namespace qmorph::adapter

@@ -2,12 +2,14 @@
 #pragma once
 /// From the mesh of a model to what the engine takes.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/model/shared.hpp"
+#include "qmorph/error.hpp"
 #include "qmorph/patch.hpp"
 
 namespace qmorph::adapter {
@@ -36,5 +38,8 @@ struct SurfaceMesh {
 ///         not exist. `local` is scratch: as long as the mesh has nodes, all kNone before and after.
 SurfaceMesh read_surface(const ModelMesh& mesh, const NodeUse& use, const FixedEdges& fixed_edges, std::uint32_t entity,
                          std::vector<Index>& local);
+
+/// What is said of a quad two sides of which cross.
+SurfaceError crossed_quad(std::size_t tag, const std::array<Eigen::Vector3d, 4>& corners);
 
 }  // namespace qmorph::adapter

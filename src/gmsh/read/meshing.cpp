@@ -8,8 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
+#include <utility>
 
 #include "gmsh/divide/curves.hpp"
 #include "gmsh/even/even_links.hpp"
@@ -185,30 +187,37 @@ std::vector<int> surfaces_of(const MeshingTask& task) {
   return surfaces;
 }
 
-/// Curves, then surfaces.
-StageLog generate(const Flags& flags, const DivisionTask* curves, DivisionReport& division) {
-  division = {};
+/// Curves, then surfaces. `division` stays empty if something is thrown while curves are divided.
+StageLog generate(const Flags& flags, const DivisionTask* curves, std::optional<DivisionReport>& division) {
+  division.reset();
   return run_logged([&] {
     const RecombinationOff off;
     // A script that is merged makes Gmsh forget the numbers that it has been told.
     if (!flags.recombined.empty()) forbid_pairing(flags.recombined);
-    if (curves) division = divide_curves(*curves);
-    if (!division.understood) divide_evenly();
+    division = curves ? divide_curves(*curves) : DivisionReport();
+    if (!division->understood) divide_evenly();
     ::gmsh::model::mesh::generate(2);
   });
 }
 
 /// Gmsh's mesher sometimes fails for one number of segments and not for the next: then the curves that it names keep
 /// the number that Gmsh gives them. It divides others further as it goes: then that becomes their number. As a last
-/// resort each curve is made even by itself.
+/// resort, and where curves cannot be divided at all, each is made even by itself.
 StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
                   DivisionReport& division) {
   constexpr int kAttempts = 4;
   const std::vector<int> surfaces = surfaces_of(task);
   DivisionTask curves{surfaces, {keep_curves.begin(), keep_curves.end()}, flags.transfinite};
-  if (task.kept_on_geometry || task.compounds) return generate(flags, nullptr, division);
+  const auto generate_by = [&](const DivisionTask* by) {
+    std::optional<DivisionReport> divided;
+    StageLog log = generate(flags, by, divided);
+    division = divided.value_or(DivisionReport());
+    return std::pair(std::move(log), divided.has_value());
+  };
+  if (task.kept_on_geometry || task.compounds) return generate_by(nullptr).first;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const StageLog log = generate(flags, &curves, division);
+    const auto [log, is_divided] = generate_by(&curves);
+    if (!is_divided) break;
     if (!division.understood) return log;  // each curve has been made even by itself already
     run_logged([&] { forget_division(division); });
     if (std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) {
@@ -223,7 +232,7 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
     curves.kept_curves.insert(named.begin(), named.end());
     if (curves.kept_curves.size() == before) break;  // nothing else to try
   }
-  return generate(flags, nullptr, division);
+  return generate_by(nullptr).first;
 }
 
 /// Boundary layers of triangles, for as long as this object lives, where the script wants quads.
