@@ -182,7 +182,8 @@ TEST_CASE("interfaces: at most one part is odd, and all nodes stay on the surfac
 TEST_CASE("divide: the end of a line inside is a tip that is wide, a pointed cone's is one that may be narrow") {
   constexpr Index kAround = 12;
   for (const double height : {0.0, 0.3, 3.0}) {  // of a cone over the unit circle with a line from its rim to its tip
-    Patch patch{.points = {{0, 0, height}}};
+    Patch patch;
+    patch.points = {{0, 0, height}};
     for (Index k = 0; k < kAround; ++k) {
       const double angle = 2 * std::numbers::pi * k / kAround;
       patch.points.emplace_back(std::cos(angle), std::sin(angle), 0);
