@@ -223,6 +223,19 @@ bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& 
 template bool is_on_unsure_ground(const Result&, Index, const Corners<3>&, std::span<const char>);
 template bool is_on_unsure_ground(const Result&, Index, const Corners<4>&, std::span<const char>);
 
+namespace {
+
+bool is_on_unsure_ground(const Result& result, Index element, std::span<const char> unsure) {
+  const QuadMesh& mesh = result.mesh();
+  const auto triangles = Index(mesh.triangles.size());
+  return element < triangles
+             ? is_on_unsure_ground(result, element, corners_of<3>(mesh.points, mesh.triangles[element]), unsure)
+             : is_on_unsure_ground(result, element, corners_of<4>(mesh.points, mesh.quads[element - triangles]),
+                                   unsure);
+}
+
+}  // namespace
+
 std::vector<char> bad_elements(const Patch& patch) {
   const Neighbourhood elements(patch.points, patch.triangles, patch.quads, patch.constraints);
   const Reference reference(patch);
@@ -258,9 +271,15 @@ bool has_suspects(const Patch& before, const QuadMesh& after, std::size_t kept) 
 }
 
 std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept) {
-  const std::vector<Suspect> suspects = find_suspects(before, after, kept);
+  std::vector<Suspect> suspects = find_suspects(before, after, kept);
   if (suspects.empty()) return {};
-  return find_turned(Result(before, after), suspects, on_bad_elements(before));
+  const std::vector<char> unsure = on_bad_elements(before);
+  const bool are_triangles = kept == before.quads.size();
+  if (are_triangles && unsure.empty()) return {};
+  const Result result(before, after);
+  if (are_triangles)
+    std::erase_if(suspects, [&](const Suspect& s) { return !is_on_unsure_ground(result, s.element, unsure); });
+  return find_turned(result, suspects, unsure);
 }
 
 std::optional<Defect> find_defect(const Patch& before, const Result& result, std::size_t kept, double beside) {

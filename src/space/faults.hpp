@@ -33,7 +33,8 @@ template <std::size_t N>
 bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure);
 
 /// An element that is turned over among its neighbours or lies back over one, where the patch itself is not folded: the
-/// surface's normals cannot tell where the patch has such elements itself. Not one of the first `kept` quads.
+/// surface's normals cannot tell where the patch has such elements itself. Not one of the first `kept` quads; where these
+/// are all that the patch has, only over triangles that are turned over themselves.
 std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept = 0);
 
 /// Whether there is an element that find_turned() has to look at more closely.
