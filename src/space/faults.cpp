@@ -144,10 +144,19 @@ struct Ground {
   const TriangleTree* other_halves = nullptr;  ///< Reference::other_halves() of quads that were free to change
 };
 
+/// Squared: how long the longest side of a triangle is. A facet of a coarse surface stands off it in proportion.
+double longest_side2(const Background& surface, Index t) {
+  double longest = 0;
+  for (int i = 0; i < 3; ++i)
+    longest = std::max(longest, (surface.corner(t, (i + 1) % 3) - surface.corner(t, i)).squaredNorm());
+  return longest;
+}
+
 bool is_beside(const Ground& ground, Index element, Index node, double length2) {
   const Result& result = ground.result;
-  const double most = ground.beside * ground.beside * length2;
-  if (result.foot(element, node).distance2 <= most) return false;
+  const Foot foot = result.foot(element, node);
+  const double most = ground.beside * ground.beside * std::max(length2, longest_side2(result.surface(), foot.triangle));
+  if (foot.distance2 <= most) return false;
   return !ground.other_halves || !(ground.other_halves->closest(result.mesh().points[node]).distance2 <= most);
 }
 

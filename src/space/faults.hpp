@@ -43,7 +43,7 @@ bool has_suspects(const Patch& before, const QuadMesh& after, std::size_t kept);
 /// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned
 /// over (not those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface,
 /// handles or holes that come or go. Cost: linear.
-/// \param beside how far from the surface a node may be, in sides of an element
+/// \param beside how far from the surface a node may be, in sides of an element or of the triangle under it
 std::optional<Defect> find_defect(const Patch& before, const Result& result, std::size_t kept, double beside);
 
 /// A quad of a curved patch that is turned over among its neighbours or has a corner of 180 degrees or more, or kNone;
