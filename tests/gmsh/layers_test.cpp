@@ -110,11 +110,12 @@ TEST_CASE("layers of Gmsh: triangles of a layer become the quads that Gmsh makes
       {extruded_wall(false), extruded_wall(true)},
       {extruded_arc(false), extruded_arc(true)},
       {transfinite(false), transfinite(true)}};
-  for (const auto& [script, with_quads] : cases) {
+  for (const auto& the_case : cases) {
+    const auto& [script, with_quads] = the_case;
     write_file(directory / "in.geo", script);
     write_file(directory / "quads.geo", with_quads);
     write_file(directory / "triangles.geo", script);
-    CAPTURE(script);
+    CAPTURE(the_case.first);
     // From the same triangles: from a geometry, curves would get an even number of segments first.
     {
       const RunningGmsh running;
