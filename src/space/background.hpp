@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/index.hpp"
 #include "space/closest_point.hpp"
 
@@ -20,7 +21,7 @@ struct Foot : OnTriangle {
 
 /// Adjacency, normals and closest points of a surface's triangles, whose sides are numbered 3 * triangle + i, from
 /// corner i to the next. Arrays that it is made of must outlive it. Cost: linear in the number of triangles.
-class Background {
+class QMORPH_API Background {
  public:
   using Triangle = std::array<Index, 3>;
   using Edge = std::array<Index, 2>;

@@ -6,13 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "qmorph/export.hpp"
 #include "qmorph/index.hpp"
 
 namespace qmorph::space {
 
 /// Triangles and quads with their neighbours. Triangles are numbered first; side 4 * element + i runs from corner i to
 /// the next. Arrays that it is made of must outlive it. Cost: linear.
-class ElementSides {
+class QMORPH_API ElementSides {
  public:
   using Edge = std::array<Index, 2>;
 
