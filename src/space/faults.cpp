@@ -117,6 +117,14 @@ std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after, s
   return suspects;
 }
 
+/// Calls ask(corners) for an element, a triangle or a quad, as both are numbered together.
+template <class Ask>
+bool with_corners(const QuadMesh& mesh, Index element, const Ask& ask) {
+  const auto triangles = Index(mesh.triangles.size());
+  return element < triangles ? ask(corners_of<3>(mesh.points, mesh.triangles[element]))
+                             : ask(corners_of<4>(mesh.points, mesh.quads[element - triangles]));
+}
+
 template <std::size_t N>
 bool is_folded_under(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure) {
   return space::is_folded_under(result.surface(), result.normals(), p, result.triangle(element), unsure);
@@ -125,10 +133,8 @@ bool is_folded_under(const Result& result, Index element, const Corners<N>& p, s
 std::optional<Defect> find_turned(const Result& result, const std::vector<Suspect>& suspects,
                                   std::span<const char> unsure) {
   const QuadMesh& mesh = result.mesh();
-  const auto triangles = Index(mesh.triangles.size());
   const auto is_excused = [&](Index e) {
-    return e < triangles ? is_folded_under(result, e, corners_of<3>(mesh.points, mesh.triangles[e]), unsure)
-                         : is_folded_under(result, e, corners_of<4>(mesh.points, mesh.quads[e - triangles]), unsure);
+    return with_corners(mesh, e, [&](const auto& p) { return is_folded_under(result, e, p, unsure); });
   };
   for (const auto& [e, has_bad_corner] : suspects)
     if (has_bad_corner || !is_excused(e))
@@ -235,12 +241,8 @@ template bool is_on_unsure_ground(const Result&, Index, const Corners<4>&, std::
 namespace {
 
 bool is_on_unsure_ground(const Result& result, Index element, std::span<const char> unsure) {
-  const QuadMesh& mesh = result.mesh();
-  const auto triangles = Index(mesh.triangles.size());
-  return element < triangles
-             ? is_on_unsure_ground(result, element, corners_of<3>(mesh.points, mesh.triangles[element]), unsure)
-             : is_on_unsure_ground(result, element, corners_of<4>(mesh.points, mesh.quads[element - triangles]),
-                                   unsure);
+  return with_corners(result.mesh(), element,
+                      [&](const auto& p) { return is_on_unsure_ground(result, element, p, unsure); });
 }
 
 }  // namespace
