@@ -26,17 +26,6 @@ double length(const Loop& nodes, const std::vector<Vec2>& points) {
   return sum;
 }
 
-/// `lower` is to have the more nodes: else the band is turned by half a turn.
-void put_longer_below(Band& band) {
-  if (band.lower.size() >= band.upper.size()) return;
-  std::swap(band.lower, band.upper);
-  std::reverse(band.lower.begin(), band.lower.end());
-  std::reverse(band.upper.begin(), band.upper.end());
-  std::swap(band.start, band.end);
-  std::reverse(band.start.begin(), band.start.end());
-  std::reverse(band.end.begin(), band.end.end());
-}
-
 bool has_fair_sides(const Band& band, const BandLimits& limits) {
   return band.upper.size() > limits.least_edges && band.lower.size() <= kLargestRatio * band.upper.size();
 }
@@ -109,6 +98,16 @@ class Side {
 };
 
 }  // namespace
+
+void put_longer_below(Band& band) {
+  if (band.lower.size() >= band.upper.size()) return;
+  std::swap(band.lower, band.upper);
+  std::reverse(band.lower.begin(), band.lower.end());
+  std::reverse(band.upper.begin(), band.upper.end());
+  std::swap(band.start, band.end);
+  std::reverse(band.start.begin(), band.start.end());
+  std::reverse(band.end.begin(), band.end.end());
+}
 
 std::vector<Loop> boundary_of(const Region& region) {
   std::vector<Index> after(region.points.size(), kNone);

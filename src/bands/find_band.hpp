@@ -31,6 +31,9 @@ struct BandLimits {
 /// Where other ways have failed.
 constexpr BandLimits kAnyBand{2, true};
 
+/// `lower` is to have the more nodes: else the band is turned by half a turn.
+void put_longer_below(Band& band);
+
 /// The boundary, the region on the left of each loop.
 std::vector<Loop> boundary_of(const Region& region);
 

@@ -7,6 +7,7 @@
 #include "bands/lay_blade.hpp"
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
+#include "bands/relay_rows.hpp"
 #include "cleanup/raise_worth.hpp"
 #include "cleanup/refill.hpp"
 #include "engine/ear.hpp"
@@ -66,6 +67,7 @@ class RegionConverter {
     Attempt paired = attempts_.pair_triangles();
     take_chords(paired);
     if (paired.fault) throw *fault;
+    refill(paired);
     return paired;
   }
 
@@ -83,6 +85,7 @@ class RegionConverter {
     if (result.fault) {
       Attempt paired = attempts_.pair_triangles();
       take_chords(paired);
+      refill(paired);
       if (!paired.fault) return paired;
       attempts_.clean_astray(result);
     }
@@ -232,13 +235,15 @@ class RegionConverter {
     if (wants_stages(best.options)) best.record.stages[std::size_t(Stage::repair)] = best.mesh;
   }
 
-  /// In the end, whichever attempt it was: what is around poor quads by an exact search.
+  /// In the end, whichever attempt it was: rows that lean across a gap, and what is around poor quads by an exact
+  /// search.
   void refill(Attempt& best) {
     if (best.fault || plane_.curved || !cleanup::has_poor_quads(best.mesh)) return;
     kernel::Mesh mesh = best.mesh;
     const std::size_t spent = mesh.work();
-    const std::size_t changes =
-        cleanup::refill_around_poor(mesh, options_.smoothing, {mesh, std::size_t(std::max(0.0, budget_.left()))});
+    const kernel::Budget budget(mesh, std::size_t(std::max(0.0, budget_.left())));
+    const std::size_t changes = bands::relay_leaning_rows(mesh, options_.smoothing, budget) +
+                                cleanup::refill_around_poor(mesh, options_.smoothing, budget);
     attempts_.spend(mesh.work() - spent);
     if (changes == 0) return;
     if (attempts_.is_small()) attempts_.raise_corners(mesh, options_.smoothing);

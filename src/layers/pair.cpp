@@ -2,10 +2,12 @@
 #include "layers/pair.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include "layers/cell.hpp"
 #include "layers/remnants.hpp"
+#include "layers/walls.hpp"
 
 namespace qmorph::layers {
 namespace {
@@ -38,6 +40,14 @@ std::vector<Cell> pair_tree(const Sides& sides, std::vector<Index> triangles) {
   return cells;
 }
 
+/// A whole row of quads that lean like that is better laid anew, with room for other rows (bands/relay_rows.hpp).
+bool is_leaning_row(const std::vector<Cell>& cells) {
+  constexpr double kLeans = 27 * std::numbers::pi / 180;
+  return cells.size() >= kRow && std::all_of(cells.begin(), cells.end(), [](const Cell& cell) {
+           return *std::min_element(cell.angles.begin(), cell.angles.end()) < kLeans;
+         });
+}
+
 }  // namespace
 
 std::size_t pair_remnants(Patch& patch) {
@@ -52,7 +62,9 @@ std::size_t pair_remnants(Patch& patch) {
     std::set<Index> nodes;
     for (Index t : part) nodes.insert(patch.triangles[t].begin(), patch.triangles[t].end());
     if (part.size() % 2 != 0 || nodes.size() != part.size() + 2) continue;
-    for (const Cell& cell : pair_tree(sides, part)) {
+    const std::vector<Cell> cells = pair_tree(sides, part);
+    if (is_leaning_row(cells)) continue;
+    for (const Cell& cell : cells) {
       quads.push_back(cell.nodes);
       for (Index t : cell.triangles) is_paired[t] = true;
     }

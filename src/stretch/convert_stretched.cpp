@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bands/relay_rows.hpp"
 #include "engine/convert_region.hpp"
 #include "engine/grid_pairs.hpp"
 #include "engine/worth.hpp"
@@ -59,6 +60,7 @@ kernel::Mesh convert_in(const Unfolded& chart, const Region& region, const Plane
   for (auto& stage : record.stages)
     if (stage) chart.lift(*stage);
   chart.lift_and_straighten(mesh);
+  bands::relay_leaning_rows(mesh, options.smoothing, {mesh, std::size_t(std::max(0.0, budget.left()))});
   if (wants_stages(options)) record.stages.back() = mesh;
   return mesh;
 }
