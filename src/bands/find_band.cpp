@@ -109,6 +109,20 @@ void put_longer_below(Band& band) {
   std::reverse(band.end.begin(), band.end.end());
 }
 
+std::vector<Index> renumber(Band& band) {
+  std::vector<Index> nodes;
+  const auto take = [&](Index& v) {
+    const bool is_first = !nodes.empty() && v == nodes.front();
+    if (!is_first && (nodes.empty() || v != nodes.back())) nodes.push_back(v);
+    v = is_first ? 0 : Index(nodes.size() - 1);
+  };
+  std::for_each(band.lower.begin(), band.lower.end(), take);
+  std::for_each(band.end.begin(), band.end.end(), take);
+  std::for_each(band.upper.rbegin(), band.upper.rend(), take);
+  std::for_each(band.start.rbegin(), band.start.rend(), take);
+  return nodes;
+}
+
 std::vector<Loop> boundary_of(const Region& region) {
   std::vector<Index> after(region.points.size(), kNone);
   for (std::size_t side = 0; side < region.open.size(); ++side)

@@ -34,6 +34,9 @@ constexpr BandLimits kAnyBand{2, true};
 /// `lower` is to have the more nodes: else the band is turned by half a turn.
 void put_longer_below(Band& band);
 
+/// Its nodes once round, counter-clockwise; those in the band become places among them.
+std::vector<Index> renumber(Band& band);
+
 /// The boundary, the region on the left of each loop.
 std::vector<Loop> boundary_of(const Region& region);
 

@@ -101,15 +101,6 @@ Gap gap_of(const kernel::Mesh& mesh, const std::vector<Index>& sides, const End&
   return gap;
 }
 
-/// Calls visit(v) for the band's nodes, counter-clockwise, corners twice.
-template <class Visit>
-void for_ring_of(Band& band, const Visit& visit) {
-  for (Index& v : band.lower) visit(v);
-  for (Index& v : band.end) visit(v);
-  for (auto v = band.upper.rbegin(); v != band.upper.rend(); ++v) visit(*v);
-  for (auto v = band.start.rbegin(); v != band.start.rend(); ++v) visit(*v);
-}
-
 /// Draws the faces of `rows` into a face of `mesh`, each next to those before it. `node`: the mesh's node for each of
 /// the first ones of `rows`; the others are new, and appended to it. False, perhaps half-way, if an edge that it needs
 /// is there already outside.
@@ -165,13 +156,12 @@ class Relaying {
 
   std::size_t run() {
     std::size_t laid = 0;
-    kernel::MarkSet seen;
     for (Index h = 0; h < mesh_.half_edge_slots() && !budget_.is_spent(); ++h) {
-      if (!mesh_.is_live_half_edge(h) || !is_across(mesh_, h) || seen.contains(mesh_.face(h))) continue;
+      if (!mesh_.is_live_half_edge(h) || !is_across(mesh_, h) || seen_.contains(mesh_.face(h))) continue;
       const std::vector<Index> sides = row_of(mesh_, h);
       bool leans = false;
       for (Index low : sides) {
-        seen.insert(mesh_.face(low));
+        seen_.insert(mesh_.face(low));
         leans = leans || !mesh_.is_above(mesh_.face(low), kLeaning);
       }
       mesh_.add_work(sides.size());
@@ -191,25 +181,23 @@ class Relaying {
 
   bool relay(const std::vector<Index>& sides) {
     std::vector<Offer> offers;
-    for (const End& left : ends_of(mesh_, kernel::Mesh::twin(mesh_.prev(sides.front())), false))
-      for (const End& right : ends_of(mesh_, kernel::Mesh::twin(mesh_.next(sides.back())), true))
-        if (left.face == kNone || left.face != right.face) add_offers(gap_of(mesh_, sides, left, right), offers);
+    add_rows(sides, offers);
     std::stable_sort(offers.begin(), offers.end(), [](const Offer& a, const Offer& b) { return a.lack < b.lack; });
     return std::any_of(offers.begin(), offers.end(), [&](const Offer& offer) { return take(offer); });
   }
 
+  /// A single row with what may be its ends.
+  void add_rows(const std::vector<Index>& sides, std::vector<Offer>& offers) {
+    for (const End& left : ends_of(mesh_, kernel::Mesh::twin(mesh_.prev(sides.front())), false))
+      for (const End& right : ends_of(mesh_, kernel::Mesh::twin(mesh_.next(sides.back())), true))
+        if (left.face == kNone || left.face != right.face) add_offers(gap_of(mesh_, sides, left, right), offers);
+  }
+
   void add_offers(const Gap& gap, std::vector<Offer>& offers) {
     Band band = gap.band;
-    std::vector<Index> nodes;
+    const std::vector<Index> nodes = renumber(band);
     std::vector<Vec2> points;
-    for_ring_of(band, [&](Index& v) {
-      const bool is_first = !nodes.empty() && v == nodes.front();
-      if (!is_first && (nodes.empty() || v != nodes.back())) {
-        points.push_back(mesh_.point(v));
-        nodes.push_back(v);
-      }
-      v = is_first ? 0 : Index(nodes.size() - 1);
-    });
+    for (Index v : nodes) points.push_back(mesh_.point(v));
     put_longer_below(band);
     for (const RowCosts& costs : {kBetterTurns, kFewerTurns})
       if (auto rows = lay_rows(band, points, costs)) {
@@ -267,6 +255,7 @@ class Relaying {
 
   kernel::Mesh& mesh_;
   cleanup::Cavity cavity_;
+  kernel::MarkSet seen_;  ///< faces of rows
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;
 };

@@ -6,6 +6,7 @@
 
 #include "bands/lay_blade.hpp"
 #include "bands/lay_chords.hpp"
+#include "bands/lay_gaps.hpp"
 #include "bands/lay_rows.hpp"
 #include "bands/relay_rows.hpp"
 #include "cleanup/raise_worth.hpp"
@@ -91,6 +92,7 @@ class RegionConverter {
     }
     attempts_.finish(result);
     take_rows(result);
+    take_gaps(result);
     take_chords(result);
     take_pairs(result);
     refill(result);
@@ -120,6 +122,16 @@ class RegionConverter {
       if (!laid.fault && is_worth_more(one, other) && one.least >= least) best = std::move(laid);
       if (!may_have_others) return;  // of rows that never turn, other costs make the same
     }
+  }
+
+  /// A net of gaps as rows along them, if they are worth more.
+  void take_gaps(Attempt& best) {
+    if (best.fault || plane_.curved || attempts_.judge(best.mesh).least >= kFair) return;
+    auto mesh = bands::lay_gaps(region_);
+    if (!mesh) return;
+    Attempt laid = attempts_.begin(std::move(*mesh), options_, attempts_.left_for_rows(), Way::without_front);
+    attempts_.finish(laid);
+    if (!laid.fault && is_worth_more(attempts_.judge(laid.mesh), attempts_.judge(best.mesh))) best = std::move(laid);
   }
 
   /// A poor region without room for nodes inside as the best quads between those of its boundary, or one that runs out
@@ -174,6 +186,7 @@ class RegionConverter {
     Attempt best = attempts_.begin(attempts_.start(), options_, work_for_first(size), Way::one_of_many);
     attempts_.finish(best);
     take_rows(best);
+    take_gaps(best);
     take_chords(best);
     take_pairs(best);
     Worth worth = attempts_.judge(best.mesh);
