@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "bands/gap_net.hpp"
 
-#include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "kernel/mesh.hpp"
@@ -9,14 +9,78 @@
 namespace qmorph::bands {
 namespace {
 
-bool has_only_boundary_nodes(const Region& region, const kernel::Mesh& mesh) {
-  std::size_t nodes = 0;
+/// With more for each node of the boundary there is room for other quads.
+constexpr double kMostInside = 0.25;
+constexpr int kMostSweeps = 20;
+
+std::vector<Index> neighbours_of(const kernel::Mesh& mesh, Index v) {
+  std::vector<Index> nodes;
+  for (Index h : mesh.around(v)) nodes.push_back(mesh.target(h));
+  return nodes;
+}
+
+/// Merges v into the neighbour that leaves the best triangles. False if none leaves valid ones.
+bool remove(kernel::Mesh& mesh, Index v) {
+  Index best = kNone;
+  double most = 0;
+  for (const Index to : neighbours_of(mesh, v)) {
+    mesh.begin();
+    const Index h = mesh.find(v, to);
+    double least = 0;
+    if (mesh.can_collapse(h)) {
+      mesh.collapse(h);
+      least = mesh.is_valid_star(to) ? mesh.smallest_sine_around(to) : 0;
+    }
+    mesh.rollback();
+    if (least > most) most = least, best = to;
+  }
+  if (best == kNone) return false;
+  mesh.collapse(mesh.find(v, best));
+  return true;
+}
+
+/// Angle of a triangle opposite to its side h.
+double opposite_angle(const kernel::Mesh& mesh, Index h) {
+  const Vec2 apex = mesh.point(mesh.origin(mesh.prev(h)));
+  return ccw_angle(mesh.point(mesh.origin(h)) - apex, mesh.point(mesh.target(h)) - apex);
+}
+
+/// Turns diagonals until all triangles are Delaunay, so that they lie across gaps.
+void turn_diagonals(kernel::Mesh& mesh) {
+  constexpr double kTolerance = 1e-9;
+  bool has_turned = true;
+  for (int sweep = 0; has_turned && sweep < kMostSweeps; ++sweep) {
+    has_turned = false;
+    for (Index h = 0; h < mesh.half_edge_slots(); h += 2) {
+      if (!mesh.is_live_half_edge(h) || mesh.is_boundary_edge(h)) continue;
+      const double sum = opposite_angle(mesh, h) + opposite_angle(mesh, kernel::Mesh::twin(h));
+      if (sum <= std::numbers::pi + kTolerance || !mesh.can_flip(h)) continue;
+      mesh.flip(h);
+      has_turned = true;
+    }
+  }
+}
+
+/// The region's triangles without the few nodes that are inside. Nothing if these are many, or fixed, or the boundary
+/// touches itself.
+std::optional<kernel::Mesh> without_inner_nodes(const Region& region) {
+  kernel::Mesh mesh(region.points, region.triangles, region.open);
+  for (Index v : region.fixed)
+    if (!mesh.is_boundary(v)) return {};
+  std::vector<Index> inner;
+  std::size_t outer = 0;
   for (Index v = 0; v < mesh.vertex_slots(); ++v) {
     if (!mesh.is_live_vertex(v)) continue;
-    if (!mesh.is_boundary(v)) return false;
-    ++nodes;
+    if (mesh.is_boundary(v))
+      ++outer;
+    else
+      inner.push_back(v);
   }
-  return nodes == region.boundary_sides;
+  if (outer != region.boundary_sides || double(inner.size()) > kMostInside * double(outer)) return {};
+  for (Index v : inner)
+    if (!remove(mesh, v)) return {};
+  if (!inner.empty()) turn_diagonals(mesh);
+  return mesh;
 }
 
 std::size_t inner_sides(const kernel::Mesh& mesh, Index f) {
@@ -30,7 +94,7 @@ class GapFinder {
   explicit GapFinder(const kernel::Mesh& mesh)
       : mesh_(mesh), junction_(mesh.face_slots(), kNone), is_known_(mesh.half_edge_slots(), false) {
     for (Index f = 0; f < mesh.face_slots(); ++f)
-      if (inner_sides(mesh, f) == 3) junction_[f] = Index(net_.junctions++);
+      if (mesh.is_live_face(f) && inner_sides(mesh, f) == 3) junction_[f] = Index(net_.junctions++);
   }
 
   GapNet run() {
@@ -68,9 +132,9 @@ class GapFinder {
 }  // namespace
 
 std::optional<GapNet> find_gaps(const Region& region) {
-  const kernel::Mesh mesh(region.points, region.triangles, region.open);
-  if (!has_only_boundary_nodes(region, mesh)) return {};
-  GapNet net = GapFinder(mesh).run();
+  const auto mesh = without_inner_nodes(region);
+  if (!mesh) return {};
+  GapNet net = GapFinder(*mesh).run();
   if (net.junctions == 0) return {};
   return net;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Regions that are nets of gaps: mortar between bricks, boundaries between grains, clearances between parts, where the
-/// triangles have no node inside.
+/// Regions that are nets of gaps: mortar between bricks, boundaries between grains, clearances between parts, where
+/// triangles have hardly a node inside.
 
 #include <array>
 #include <optional>
@@ -28,7 +28,8 @@ struct GapNet {
   std::size_t junctions = 0;  ///< triangles without a side on the boundary
 };
 
-/// Nothing if a node is inside, the boundary touches itself, or there is no junction. Cost: linear.
+/// Of the triangles between the nodes of the boundary. Nothing if many nodes are inside, or one that is fixed, the
+/// boundary touches itself, or there is no junction. Cost: linear.
 std::optional<GapNet> find_gaps(const Region& region);
 
 }  // namespace qmorph::bands

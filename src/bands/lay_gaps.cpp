@@ -38,9 +38,18 @@ double price(double sine) {
   return lack * lack + kPriceOfLean * (1 - sine) + kPriceOfQuad;
 }
 
-double cost_of(const kernel::Mesh& rows) {
+/// `outer`: nodes of the boundary, the first ones. A corner between three of them stays as it is.
+double cost_of(const kernel::Mesh& rows, std::size_t outer) {
+  constexpr double kBlunt = 0.1, kPriceOfBlunt = 10;
   double sum = 0;
-  for (Index f = 0; f < rows.face_slots(); ++f) sum += price(rows.smallest_sine(f));
+  for (Index f = 0; f < rows.face_slots(); ++f) {
+    sum += price(rows.smallest_sine(f));
+    for (Index h : rows.sides_of(f)) {
+      const Index v = rows.origin(h), next = rows.target(h), previous = rows.origin(rows.prev(h));
+      const bool stays = v < outer && next < outer && previous < outer;
+      if (stays && corner_sine(rows.point(v), rows.point(next), rows.point(previous)) < kBlunt) sum += kPriceOfBlunt;
+    }
+  }
   return sum;
 }
 
@@ -111,7 +120,7 @@ class GapLayer {
         for (const RowCosts& costs : {kBetterTurns, kFewerTurns}) {
           auto rows = lay_rows(band, points, costs);
           if (!rows) continue;
-          const double cost = cost_of(*rows);
+          const double cost = cost_of(*rows, nodes.size());
           if (cost < best.cost) best = {std::move(rows), nodes, {Index(nodes.size() - 1), end_middle}, cost};
         }
       }
