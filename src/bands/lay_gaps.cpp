@@ -30,6 +30,7 @@ struct Layout {
   std::optional<kernel::Mesh> rows;           ///< none for a gap without triangles
   std::vector<Index> nodes;                   ///< of the region: the first ones of `rows`
   std::array<Index, 2> middle{kNone, kNone};  ///< places among them of those between two rows at the ends
+  std::array<bool, 2> has_kite{false, false};
   double cost = kInfinite;
 };
 
@@ -38,16 +39,19 @@ double price(double sine) {
   return lack * lack + kPriceOfLean * (1 - sine) + kPriceOfQuad;
 }
 
-/// `outer`: nodes of the boundary, the first ones. A corner between three of them stays as it is.
-double cost_of(const kernel::Mesh& rows, std::size_t outer) {
+/// `nodes`: the region's, of the first ones of `rows`; of these those under `outer` are on the boundary, and a corner
+/// between three of them stays as it is.
+double cost_of(const kernel::Mesh& rows, const std::vector<Index>& nodes, Index outer) {
   constexpr double kBlunt = 0.1, kPriceOfBlunt = 10;
+  const auto stays = [&](Index v) { return v < nodes.size() && nodes[v] < outer; };
   double sum = 0;
   for (Index f = 0; f < rows.face_slots(); ++f) {
     sum += price(rows.smallest_sine(f));
     for (Index h : rows.sides_of(f)) {
       const Index v = rows.origin(h), next = rows.target(h), previous = rows.origin(rows.prev(h));
-      const bool stays = v < outer && next < outer && previous < outer;
-      if (stays && corner_sine(rows.point(v), rows.point(next), rows.point(previous)) < kBlunt) sum += kPriceOfBlunt;
+      if (stays(v) && stays(next) && stays(previous) &&
+          corner_sine(rows.point(v), rows.point(next), rows.point(previous)) < kBlunt)
+        sum += kPriceOfBlunt;
     }
   }
   return sum;
@@ -56,17 +60,39 @@ double cost_of(const kernel::Mesh& rows, std::size_t outer) {
 /// Two triangles share a side there.
 bool is_empty(const Gap& gap) { return gap.lower.size() + gap.upper.size() == 2 && gap.ends[1].junction != kNone; }
 
-/// The nodes of an end from the lower side to the upper one, and whether the sides go on to its far corner.
+/// The nodes of an end from the lower side to the upper one, and whether the sides go on to its far corner. With a kite
+/// the node between two rows is a new one inside the gap, in the corner of a quad with the junction's three.
 struct EndNodes {
   std::vector<Index> nodes;
-  bool is_longer_below = false, is_longer_above = false;
+  bool is_longer_below = false, is_longer_above = false, has_kite = false;
 };
 
-/// Of a dead end the far corner is in the middle, or one of either side.
-std::vector<EndNodes> ways_to_end(const GapEnd& end, bool is_doubled) {
+/// Of a dead end the far corner is in the middle, or one of either side. `kite`: the number of a kite's new node.
+std::vector<EndNodes> ways_to_end(const GapEnd& end, bool is_doubled, Index kite) {
   const std::vector<Index> around{end.lower, end.beyond, end.upper};
-  if (end.junction != kNone) return {{is_doubled ? around : std::vector<Index>{end.lower, end.upper}}};
-  return {{around}, {{end.beyond, end.upper}, true, false}, {{end.lower, end.beyond}, false, true}};
+  if (end.junction == kNone)
+    return {{around}, {{end.beyond, end.upper}, true, false}, {{end.lower, end.beyond}, false, true}};
+  if (!is_doubled) return {{{end.lower, end.upper}}};
+  return {{around}, {{end.lower, kite, end.upper}, false, false, true}};
+}
+
+/// Of a junction and its side towards a gap: the side's nodes in its own sense, the gap on their right.
+std::array<Index, 2> side_of(const Gap& gap, int e) {
+  const GapEnd& end = gap.ends[e];
+  return e == 0 ? std::array{end.lower, end.upper} : std::array{end.upper, end.lower};
+}
+
+/// Where a kite's node is at first: as far into the gap as half its width, or half-way to the next nodes.
+Vec2 kite_point(const Gap& gap, int e, const std::vector<Vec2>& points) {
+  const GapEnd& end = gap.ends[e];
+  const Vec2 middle = (points[end.lower] + points[end.upper]) / 2, way = middle - points[end.beyond];
+  double depth = (points[end.upper] - points[end.lower]).norm();
+  for (const std::vector<Index>* side : {&gap.lower, &gap.upper}) {
+    if (side->size() < 2) continue;
+    const auto n = side->size();
+    depth = std::min(depth, (points[(*side)[e == 0 ? 1 : n - 2]] - points[(*side)[e == 0 ? 0 : n - 1]]).norm());
+  }
+  return middle + depth / 2 / way.norm() * way;
 }
 
 Band band_of(const Gap& gap, const EndNodes& start, const EndNodes& end) {
@@ -109,19 +135,29 @@ class GapLayer {
           !doubled[0] ? 0 : price(smallest_corner_sine(p(one.lower), p(other.beyond), p(one.upper), p(one.beyond)));
       return best;
     }
-    for (const EndNodes& start : ways_to_end(gap.ends[0], doubled[0]))
-      for (const EndNodes& end : ways_to_end(gap.ends[1], doubled[1])) {
+    const auto outer = Index(region_.points.size());
+    const std::array<Vec2, 2> kites{kite_point(gap, 0, region_.points), kite_point(gap, 1, region_.points)};
+    const auto point = [&](Index v) { return v < outer ? region_.points[v] : kites[v - outer]; };
+    for (const EndNodes& start : ways_to_end(gap.ends[0], doubled[0], outer))
+      for (const EndNodes& end : ways_to_end(gap.ends[1], doubled[1], outer + 1)) {
         Band band = band_of(gap, start, end);
+        const std::array<bool, 2> has_kite{start.has_kite, end.has_kite};
+        double extra = 0;
+        for (int e : {0, 1})
+          if (has_kite[e]) {
+            const auto [right, left] = side_of(gap, e);
+            extra += price(smallest_corner_sine(point(right), kites[e], point(left), point(gap.ends[e].beyond)));
+          }
         const auto end_middle = Index(band.lower.size());
         const std::vector<Index> nodes = renumber(band);
         std::vector<Vec2> points;
-        for (Index v : nodes) points.push_back(region_.points[v]);
+        for (Index v : nodes) points.push_back(point(v));
         put_longer_below(band);
         for (const RowCosts& costs : {kBetterTurns, kFewerTurns}) {
           auto rows = lay_rows(band, points, costs);
           if (!rows) continue;
-          const double cost = cost_of(*rows, nodes.size());
-          if (cost < best.cost) best = {std::move(rows), nodes, {Index(nodes.size() - 1), end_middle}, cost};
+          const double cost = extra + cost_of(*rows, nodes, outer);
+          if (cost < best.cost) best = {std::move(rows), nodes, {Index(nodes.size() - 1), end_middle}, has_kite, cost};
         }
       }
     return best;
@@ -173,7 +209,8 @@ class GapLayer {
     return Index(points_.size() - 1);
   }
 
-  /// The node between the two rows at each end: the far corner of a triangle that is this gap's alone, else a new one.
+  /// The node between the two rows at each end: the far corner of a triangle that is this gap's alone, but for a kite,
+  /// else a new one.
   void find_middles() {
     middles_.resize(net_.gaps.size());
     for (std::size_t g = 0; g < net_.gaps.size(); ++g) {
@@ -185,6 +222,8 @@ class GapLayer {
           middles_[g][1] = middles_[g][0];
         else if (has_centre(end) && doubled_[g][e])
           middles_[g][e] = add((points_[end.lower] + points_[end.upper]) / 2);
+        else if (doubled_[g][e] && layouts_[g].has_kite[e])
+          middles_[g][e] = add(kite_point(gap, e, region_.points));
         else
           middles_[g][e] = end.beyond;
       }
@@ -202,7 +241,12 @@ class GapLayer {
     const kernel::Mesh& rows = *layouts_[g].rows;
     std::vector<Index> node = layouts_[g].nodes;
     for (int e : {0, 1})
-      if (doubled_[g][e] && gap.ends[e].junction != kNone) node[layouts_[g].middle[e]] = middle[e];
+      if (doubled_[g][e] && gap.ends[e].junction != kNone) {
+        node[layouts_[g].middle[e]] = middle[e];
+        if (!layouts_[g].has_kite[e] || has_centre(gap.ends[e])) continue;
+        const auto [right, left] = side_of(gap, e);
+        faces_.push_back({right, middle[e], left, gap.ends[e].beyond});
+      }
     for (Index v = Index(node.size()); v < rows.vertex_slots(); ++v) node.push_back(add(rows.point(v)));
     for (Index f = 0; f < rows.face_slots(); ++f) {
       std::array<Index, 4> face{kNone, kNone, kNone, kNone};
@@ -219,19 +263,16 @@ class GapLayer {
       for (int e : {0, 1})
         if (const Index junction = net_.gaps[g].ends[e].junction; junction != kNone) ends[junction].emplace_back(g, e);
     for (std::size_t j = 0; j < net_.junctions; ++j) {
-      const GapEnd& any = net_.gaps[ends[j][0].first].ends[ends[j][0].second];
-      // Looking away from the junction, its first side runs from right to left.
-      const bool is_first = ends[j][0].second == 0;
-      const Index right = is_first ? any.lower : any.upper, left = is_first ? any.upper : any.lower;
-      if (takers_[j] == 0) faces_.push_back({right, left, any.beyond, kNone});
+      const Gap& any = net_.gaps[ends[j][0].first];
+      const auto [right, left] = side_of(any, ends[j][0].second);
+      const Index beyond = any.ends[ends[j][0].second].beyond;
+      if (takers_[j] == 0) faces_.push_back({right, left, beyond, kNone});
       if (takers_[j] != 3) continue;
-      const Index centre = add((points_[right] + points_[left] + points_[any.beyond]) / 3);
+      const Index centre = add((points_[right] + points_[left] + points_[beyond]) / 3);
       for (const auto& [g, e] : ends[j])
         for (const auto& [h, f] : ends[j]) {
-          const GapEnd &one = net_.gaps[g].ends[e], &other = net_.gaps[h].ends[f];
-          const Index corner = e == 0 ? one.lower : one.upper;  // the first gap is on its left, the other on its right
-          if (corner == (f == 0 ? other.upper : other.lower))
-            faces_.push_back({corner, middles_[g][e], centre, middles_[h][f]});
+          const Index corner = side_of(net_.gaps[g], e)[0];
+          if (corner == side_of(net_.gaps[h], f)[1]) faces_.push_back({corner, middles_[g][e], centre, middles_[h][f]});
         }
     }
   }
