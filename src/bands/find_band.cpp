@@ -13,8 +13,6 @@
 namespace qmorph::bands {
 namespace {
 
-/// The sides are so many edges apart, at most.
-constexpr double kLargestGap = 3.6;
 /// A corner of a strip is sharper.
 constexpr double kCornerAngle = 0.75 * std::numbers::pi;
 /// One side may have so many times the edges of the other.
@@ -151,7 +149,7 @@ std::optional<Band> find_band(const Region& region, const BandLimits& limits) {
   return band;
 }
 
-std::optional<Facing> find_facing(Band& band, const std::vector<Vec2>& points) {
+std::optional<Facing> find_facing(Band& band, const std::vector<Vec2>& points, double largest_gap) {
   const Vec2 first = points[band.lower.front()];
   if (band.is_ring) {
     band.upper.pop_back();
@@ -180,7 +178,7 @@ std::optional<Facing> find_facing(Band& band, const std::vector<Vec2>& points) {
     facing.node.push_back(Index(j));
     facing.rows.push_back(least);
     sum += least;
-    if (least > kLargestGap * edge) return {};
+    if (least > largest_gap * edge) return {};
   }
   // As high as edges are long, but no lower than the triangles.
   const double scale = std::min(1 / edge, band.rows * double(facing.rows.size()) / sum);

@@ -51,7 +51,10 @@ struct Facing {
   std::vector<double> rows;  ///< that are wanted there
 };
 
-/// Nothing if the sides are too far apart for a band.
-std::optional<Facing> find_facing(Band& band, const std::vector<Vec2>& points);
+/// The sides of a band are so many edges apart, at most.
+constexpr double kLargestGap = 3.6;
+
+/// Nothing if the sides are farther apart.
+std::optional<Facing> find_facing(Band& band, const std::vector<Vec2>& points, double largest_gap = kLargestGap);
 
 }  // namespace qmorph::bands

@@ -20,7 +20,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// What a quad costs: up to which sine it is poor, the more the poorer; and any, by what it lacks of a rectangle.
-constexpr double kPoor = 0.6, kPriceOfLean = 0.1, kPriceOfQuad = 0.02;
+constexpr double kPoor = 0.6, kPriceOfLean = 0.1, kPriceOfQuad = 0.2;
 
 /// Which ends of a gap have two rows.
 using Doubled = std::array<bool, 2>;
@@ -154,7 +154,7 @@ class GapLayer {
         for (Index v : nodes) points.push_back(point(v));
         put_longer_below(band);
         for (const RowCosts& costs : {kBetterTurns, kFewerTurns}) {
-          auto rows = lay_rows(band, points, costs);
+          auto rows = lay_rows(band, points, costs, kInfinite);
           if (!rows) continue;
           const double cost = extra + cost_of(*rows, nodes, outer);
           if (cost < best.cost) best = {std::move(rows), nodes, {Index(nodes.size() - 1), end_middle}, has_kite, cost};

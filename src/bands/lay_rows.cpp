@@ -122,8 +122,8 @@ Rails rails_of(const Band& band, const Facing& facing, const std::vector<Vec2>& 
 }
 
 /// Turns the upper side of a ring to where the lower one begins.
-RowPlan plan_band(Band& band, const std::vector<Vec2>& points, const RowCosts& costs) {
-  const auto facing = find_facing(band, points);
+RowPlan plan_band(Band& band, const std::vector<Vec2>& points, const RowCosts& costs, double largest_gap) {
+  const auto facing = find_facing(band, points, largest_gap);
   return facing ? plan_rows(rails_of(band, *facing, points), costs) : RowPlan{};
 }
 
@@ -142,15 +142,16 @@ void open_better(Band& band, const RowPlan& plan) {
 
 }  // namespace
 
-std::optional<kernel::Mesh> lay_rows(const Band& band, const std::vector<Vec2>& points, const RowCosts& costs) {
+std::optional<kernel::Mesh> lay_rows(const Band& band, const std::vector<Vec2>& points, const RowCosts& costs,
+                                     double largest_gap) {
   Band best = band;
-  RowPlan plan = plan_band(best, points, costs);
+  RowPlan plan = plan_band(best, points, costs, largest_gap);
   if (plan.steps.empty()) return {};
   constexpr int kOpenings = 2;
   for (int opening = 0; band.is_ring && opening < kOpenings; ++opening) {
     Band other = best;
     open_better(other, plan);
-    RowPlan better = plan_band(other, points, costs);
+    RowPlan better = plan_band(other, points, costs, largest_gap);
     if (better.steps.empty() || better.cost >= plan.cost) break;
     plan = std::move(better), best = std::move(other);
   }

@@ -124,14 +124,17 @@ class RegionConverter {
     }
   }
 
-  /// A net of gaps as rows along them, if they are worth more.
+  /// A net of gaps as rows along them, if they are worth more, or far fewer are poor and the worst is no worse.
   void take_gaps(Attempt& best) {
     if (best.fault || plane_.curved || attempts_.judge(best.mesh).least >= kFair) return;
     auto mesh = bands::lay_gaps(region_);
     if (!mesh) return;
     Attempt laid = attempts_.begin(std::move(*mesh), options_, attempts_.left_for_rows(), Way::without_front);
     attempts_.finish(laid);
-    if (!laid.fault && is_worth_more(attempts_.judge(laid.mesh), attempts_.judge(best.mesh))) best = std::move(laid);
+    const Worth one = attempts_.judge(laid.mesh), other = attempts_.judge(best.mesh);
+    const bool has_fewer_poor =
+        one.least >= other.least && 2 * count_poor(laid.mesh, kRefused) < count_poor(best.mesh, kRefused);
+    if (!laid.fault && (has_fewer_poor || is_worth_more(one, other))) best = std::move(laid);
   }
 
   /// A poor region without room for nodes inside as the best quads between those of its boundary, or one that runs out
