@@ -97,6 +97,13 @@ class ChordPlanner {
 
 }  // namespace
 
+Chords best_chords(std::vector<Vec2> polygon) {
+  ChordPlanner planner(std::move(polygon));
+  Chords chords{planner.run()};
+  chords.looks = planner.looks();
+  return chords;
+}
+
 std::optional<kernel::Mesh> lay_chords(const Region& region) {
   if (region.boundary_sides < kFewestNodes || region.boundary_sides > kMostNodes) return {};
   const std::vector<Loop> loops = boundary_of(region);
@@ -107,14 +114,13 @@ std::optional<kernel::Mesh> lay_chords(const Region& region) {
     if (std::find(loops[0].begin(), loops[0].end(), v) == loops[0].end()) return {};
   std::vector<Vec2> polygon;
   for (Index v : loops[0]) polygon.push_back(region.points[v]);
-  ChordPlanner planner(std::move(polygon));
-  std::vector<std::array<Index, 4>> faces = planner.run();
-  if (faces.empty()) return {};
-  for (auto& face : faces)
+  Chords chords = best_chords(std::move(polygon));
+  if (chords.faces.empty()) return {};
+  for (auto& face : chords.faces)
     for (Index& v : face)
       if (v != kNone) v = loops[0][v];
-  kernel::Mesh mesh(region.points, faces, {});
-  mesh.add_work(planner.looks());
+  kernel::Mesh mesh(region.points, chords.faces, {});
+  mesh.add_work(chords.looks);
   return mesh;
 }
 

@@ -11,6 +11,7 @@
 
 #include "bands/find_band.hpp"
 #include "bands/gap_net.hpp"
+#include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
 #include "parity/plan.hpp"
 
@@ -106,6 +107,19 @@ Band band_of(const Gap& gap, const EndNodes& start, const EndNodes& end) {
   return band;
 }
 
+/// As rows, and where there are none in a short gap with no node inside. `points`: of the band's nodes, once round.
+std::array<std::optional<kernel::Mesh>, 3> ways_between(Band band, const std::vector<Vec2>& points) {
+  constexpr std::size_t kShort = 14;  // nodes
+  std::array<std::optional<kernel::Mesh>, 3> ways;
+  put_longer_below(band);
+  ways[0] = lay_rows(band, points, kBetterTurns, kInfinite);
+  ways[1] = lay_rows(band, points, kFewerTurns, kInfinite);
+  if (!ways[0] && !ways[1] && points.size() <= kShort)
+    if (const Chords chords = best_chords(points); !chords.faces.empty())
+      ways[2] = kernel::Mesh(points, chords.faces, {});
+  return ways;
+}
+
 class GapLayer {
  public:
   GapLayer(const Region& region, GapNet net)
@@ -152,9 +166,7 @@ class GapLayer {
         const std::vector<Index> nodes = renumber(band);
         std::vector<Vec2> points;
         for (Index v : nodes) points.push_back(point(v));
-        put_longer_below(band);
-        for (const RowCosts& costs : {kBetterTurns, kFewerTurns}) {
-          auto rows = lay_rows(band, points, costs, kInfinite);
+        for (std::optional<kernel::Mesh>& rows : ways_between(band, points)) {
           if (!rows) continue;
           const double cost = extra + cost_of(*rows, nodes, outer);
           if (cost < best.cost) best = {std::move(rows), nodes, {Index(nodes.size() - 1), end_middle}, has_kite, cost};

@@ -125,16 +125,18 @@ class RegionConverter {
   }
 
   /// A net of gaps as rows along them, if they are worth more, or far fewer are poor and the worst is no worse.
-  void take_gaps(Attempt& best) {
-    if (best.fault || plane_.curved || attempts_.judge(best.mesh).least >= kFair) return;
+  bool take_gaps(Attempt& best) {
+    if (best.fault || plane_.curved || attempts_.judge(best.mesh).least >= kFair) return false;
     auto mesh = bands::lay_gaps(region_);
-    if (!mesh) return;
+    if (!mesh) return false;
     Attempt laid = attempts_.begin(std::move(*mesh), options_, attempts_.left_for_rows(), Way::without_front);
     attempts_.finish(laid);
     const Worth one = attempts_.judge(laid.mesh), other = attempts_.judge(best.mesh);
     const bool has_fewer_poor =
         one.least >= other.least && 2 * count_poor(laid.mesh, kRefused) < count_poor(best.mesh, kRefused);
-    if (!laid.fault && (has_fewer_poor || is_worth_more(one, other))) best = std::move(laid);
+    if (laid.fault || !(has_fewer_poor || is_worth_more(one, other))) return false;
+    best = std::move(laid);
+    return true;
   }
 
   /// A poor region without room for nodes inside as the best quads between those of its boundary, or one that runs out
@@ -189,7 +191,7 @@ class RegionConverter {
     Attempt best = attempts_.begin(attempts_.start(), options_, work_for_first(size), Way::one_of_many);
     attempts_.finish(best);
     take_rows(best);
-    take_gaps(best);
+    if (take_gaps(best)) return best;
     take_chords(best);
     take_pairs(best);
     Worth worth = attempts_.judge(best.mesh);
