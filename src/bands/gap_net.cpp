@@ -64,9 +64,11 @@ void turn_diagonals(kernel::Mesh& mesh) {
 /// The region's triangles without the few nodes that are inside. Nothing if these are many, or fixed, or the boundary
 /// touches itself.
 std::optional<kernel::Mesh> without_inner_nodes(const Region& region) {
+  constexpr double kMostTriangles = 1 + 2 * kMostInside + 2.0 / 3;  // for each node of the boundary: holes have three
+  if (double(region.triangles.size()) > kMostTriangles * double(region.boundary_sides)) return {};
   kernel::Mesh mesh(region.points, region.triangles, region.open);
   for (Index v : region.fixed)
-    if (!mesh.is_boundary(v)) return {};
+    if (mesh.is_live_vertex(v) && !mesh.is_boundary(v)) return {};  // the tip of an ear is dead
   std::vector<Index> inner;
   std::size_t outer = 0;
   for (Index v = 0; v < mesh.vertex_slots(); ++v) {
