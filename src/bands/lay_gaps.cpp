@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// What a quad costs: up to which sine it is poor, the more the poorer; and any, by what it lacks of a rectangle.
+/// What a quad costs: up to which sine it is poor, the more the poorer; what it lacks of
+/// a rectangle; and that there is one more.
 constexpr double kPoor = 0.6, kPriceOfLean = 0.1, kPriceOfQuad = 0.2;
 
 /// Which ends of a gap have two rows.
@@ -135,12 +136,14 @@ class GapLayer {
     find_middles();
     for (std::size_t g = 0; g < net_.gaps.size(); ++g) draw_gap(g);
     draw_junctions();
-    return kernel::Mesh(points_, faces_, {});
+    kernel::Mesh mesh(points_, faces_, {});
+    mesh.add_work(work_);
+    return mesh;
   }
 
  private:
   /// Best of the ways to lay a gap's rows.
-  Layout lay(const Gap& gap, const Doubled& doubled) const {
+  Layout lay(const Gap& gap, const Doubled& doubled) {
     Layout best;
     if (is_empty(gap)) {
       const auto p = [&](Index v) { return region_.points[v]; };
@@ -168,6 +171,7 @@ class GapLayer {
         for (Index v : nodes) points.push_back(point(v));
         for (std::optional<kernel::Mesh>& rows : ways_between(band, points)) {
           if (!rows) continue;
+          work_ += rows->work();
           const double cost = extra + cost_of(*rows, nodes, outer);
           if (cost < best.cost) best = {std::move(rows), nodes, {Index(nodes.size() - 1), end_middle}, has_kite, cost};
         }
@@ -291,10 +295,11 @@ class GapLayer {
 
   const Region& region_;
   const GapNet net_;
-  std::vector<Layout> layouts_;   ///< by gap
-  std::vector<Doubled> doubled_;  ///< by gap
-  std::vector<int> takers_;       ///< by junction: gaps that have two rows there
-  std::vector<std::array<Index, 2>> middles_;
+  std::vector<Layout> layouts_;                ///< by gap
+  std::vector<Doubled> doubled_;               ///< by gap
+  std::vector<int> takers_;                    ///< by junction: gaps that have two rows there
+  std::vector<std::array<Index, 2>> middles_;  ///< by gap: the nodes between the two rows at its ends
+  std::size_t work_ = 0;
   std::vector<Vec2> points_;
   std::vector<std::array<Index, 4>> faces_;
 };

@@ -24,7 +24,7 @@ constexpr double kLeaning = 0.45, kPoor = 0.6, kPriceOfLoss = 0.15, kLeastGain =
 constexpr int kSweeps = 10, kRingsRelaxed = 1;
 
 /// A row of quads across, with those at its ends.
-struct Gap {
+struct Row {
   std::vector<Index> faces;
   Band band;  ///< of nodes of the mesh
 };
@@ -80,13 +80,13 @@ std::vector<End> ends_of(const kernel::Mesh& mesh, Index rung, bool is_right) {
 }
 
 /// The row with the lower sides `sides` and its ends.
-Gap gap_of(const kernel::Mesh& mesh, const std::vector<Index>& sides, const End& left, const End& right) {
-  Gap gap;
-  Band& band = gap.band;
+Row whole_row(const kernel::Mesh& mesh, const std::vector<Index>& sides, const End& left, const End& right) {
+  Row row;
+  Band& band = row.band;
   if (left.is_longer_below) band.lower.push_back(left.nodes.front());
   if (left.is_longer_above) band.upper.push_back(left.nodes.back());
   for (Index low : sides) {
-    gap.faces.push_back(mesh.face(low));
+    row.faces.push_back(mesh.face(low));
     band.lower.push_back(mesh.origin(low));
     band.upper.push_back(mesh.origin(mesh.prev(low)));
   }
@@ -96,9 +96,9 @@ Gap gap_of(const kernel::Mesh& mesh, const std::vector<Index>& sides, const End&
   if (right.is_longer_below) band.lower.push_back(right.nodes.front());
   if (right.is_longer_above) band.upper.push_back(right.nodes.back());
   for (const End* end : {&left, &right})
-    if (end->face != kNone) gap.faces.push_back(end->face);
+    if (end->face != kNone) row.faces.push_back(end->face);
   band.start = left.nodes, band.end = right.nodes;
-  return gap;
+  return row;
 }
 
 /// Draws the faces of `rows` into a face of `mesh`, each next to those before it. `node`: the mesh's node for each of
@@ -190,11 +190,11 @@ class Relaying {
   void add_rows(const std::vector<Index>& sides, std::vector<Offer>& offers) {
     for (const End& left : ends_of(mesh_, kernel::Mesh::twin(mesh_.prev(sides.front())), false))
       for (const End& right : ends_of(mesh_, kernel::Mesh::twin(mesh_.next(sides.back())), true))
-        if (left.face == kNone || left.face != right.face) add_offers(gap_of(mesh_, sides, left, right), offers);
+        if (left.face == kNone || left.face != right.face) add_offers(whole_row(mesh_, sides, left, right), offers);
   }
 
-  void add_offers(const Gap& gap, std::vector<Offer>& offers) {
-    Band band = gap.band;
+  void add_offers(const Row& row, std::vector<Offer>& offers) {
+    Band band = row.band;
     const std::vector<Index> nodes = renumber(band);
     std::vector<Vec2> points;
     for (Index v : nodes) points.push_back(mesh_.point(v));
@@ -204,7 +204,7 @@ class Relaying {
         double lack = 0;
         for (Index f = 0; f < rows->face_slots(); ++f) lack += lack_of(*rows, f);
         mesh_.add_work(rows->work());
-        offers.push_back({gap.faces, nodes, std::move(*rows), lack});
+        offers.push_back({row.faces, nodes, std::move(*rows), lack});
       }
   }
 
