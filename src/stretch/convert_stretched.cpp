@@ -104,7 +104,6 @@ struct Attempt {
 struct Measure {
   double size_ratio;        ///< by how much sizes are off
   double irregular, least;  ///< share of nodes; smallest sine
-  std::size_t poor;         ///< quads with a smaller sine than solvers like
 
   bool loses_sizes() const { return size_ratio > kLargestSizeRatio; }
   bool is_poor() const { return least < kPoorQuad; }
@@ -112,14 +111,13 @@ struct Measure {
   bool is_better_than(const Measure& other) const {
     // Such a front often keeps sizes by many small quads without any order.
     if (other.loses_sizes() && size_ratio + irregular < other.size_ratio + other.irregular) return true;
-    if (least >= other.least && 2 * poor < other.poor) return true;
     return other.is_poor() && !is_poor() && !loses_sizes();
   }
 };
 
 Measure measure(const Attempt& attempt, const Region& region) {
   return {size_ratio(region, attempt.mesh), irregular_share(attempt.mesh),
-          worth_of(attempt.mesh, region.triangles.size()).least, count_poor(attempt.mesh, kPoorQuad)};
+          worth_of(attempt.mesh, region.triangles.size()).least};
 }
 
 /// Nothing if there is no valid result.
