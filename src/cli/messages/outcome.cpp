@@ -48,7 +48,7 @@ void print_triangles(const Request& request, const ModelReport& model, std::ostr
         "{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
         "leaves none{}\n",
         triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "),
-        among_quads ? " but where quads of the input enclose them" : "");
+        among_quads ? " but where quads of the input enclose them; --cleanup-only changes these quads, too" : "");
 }
 
 /// Gmsh may repeat a message for each of a million nodes.
