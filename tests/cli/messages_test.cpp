@@ -38,6 +38,19 @@ TEST_CASE("messages: a triangle that an odd boundary forces names --all-quad, an
   CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "-v", "0"}).err.empty());
 }
 
+TEST_CASE("messages: of many surfaces with a triangle the first ones are named") {
+  const TemporaryDirectory directory;
+  const Grid grid{.n = 3};
+  std::vector<std::string> rows;
+  for (const auto& triangle : grid.triangles())
+    rows.push_back(row("2 2 0 " + std::to_string(rows.size() + 1), triangle));
+  write_file(directory / "in.msh", msh22(grid.nodes(), rows));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.status == 0);
+  CHECK(mentions(result.err, "18 triangles are left"));
+  CHECK(mentions(result.err, "on surfaces 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ...; --all-quad"));
+}
+
 TEST_CASE("messages: a concave quad of the input names --cleanup-only") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", kConcave);
