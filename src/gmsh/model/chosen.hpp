@@ -9,8 +9,8 @@
 
 namespace qmorph::adapter {
 
-/// Indices into ModelMesh::entities, in their order, of the entities of this dimension with these tags. In a partitioned
-/// mesh the elements of an entity belong to its parts, which have tags of their own: they are chosen with it.
+/// Indices into ModelMesh::entities, in their order, of the entities of this dimension with these tags. In a
+/// partitioned mesh the elements of an entity belong to its parts, which have tags of their own: these are chosen, too.
 /// \param dim 1 or 2
 /// \throws UsageError if the model does not have one of the tags
 std::vector<std::uint32_t> find_chosen(const ModelMesh& mesh, int dim, const std::vector<int>& tags);

@@ -6,8 +6,8 @@
 
 namespace qmorph::adapter {
 
-/// Why Gmsh is likely to fail on a file, judged by how it begins, with what to do: "; it is ...: write ..." at the end of
-/// a message. Empty if there is nothing to say.
+/// Why Gmsh is likely to fail on a file, judged by how it begins, with what to do: "; it is ...: write ...", the end of a
+/// message. Empty if there is nothing to say.
 std::string describe_dialect(const std::string& path);
 
 /// Whether a file of VTK has data on points or cells, which Gmsh's reader leaves out.
