@@ -6,7 +6,7 @@
 
 namespace qmorph::adapter {
 
-/// Why Gmsh is likely to fail on a file, judged by how it begins, with what to do: "; it is ...: write ...", the end of a
+/// Why Gmsh is likely to fail on a file, judged by how it begins, with what to do: "; it is ...: write ...", to end a
 /// message. Empty if there is nothing to say.
 std::string describe_dialect(const std::string& path);
 
