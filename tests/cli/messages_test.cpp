@@ -137,6 +137,8 @@ TEST_CASE("messages: files that Gmsh takes for scripts, and kinds of a format th
   };
   CHECK(mentions(said("in.vtu", "<VTKFile type=\"UnstructuredGrid\">\n"), "does not read .vtu files"));
   CHECK(mentions(said("in.geo", "Point(1 = {};\n"), "syntax error"));
+  write_file(directory / "options.msh.opt", "garbage (((\n");
+  CHECK(mentions(said("options.msh", kPentagon), "options.msh.opt', line 1: syntax error"));
   CHECK(mentions(said("in.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"), "it is binary"));
   CHECK(mentions(said("in.stl", "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0,5 0,0 0,0\n"), "decimal commas"));
   CHECK(mentions(said("in.msh", "\xEF\xBB\xBF$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"), "byte order mark"));

@@ -151,7 +151,9 @@ std::string why_not_opened(const std::string& path, const StageLog& log) {
   const std::string said = first_errors(log);
   std::string version;
   ::gmsh::option::getString("General.Version", version);
-  if (!is_script(path) && said.find("syntax error") != std::string::npos)
+  // Not one in the file of options beside it.
+  const std::string place = fs::path(path).filename().string() + "', line ";
+  if (!is_script(path) && said.find("syntax error") != std::string::npos && said.find(place) != std::string::npos)
     return fmt::format(
         "Gmsh {} takes it for a script, since it does not read {} files; convert it to .msh, .vtk or .bdf", version,
         fs::path(path).extension().string());
