@@ -33,7 +33,8 @@ if(QMORPH_COMMAND)
       COMMAND ${GZIP} --best --no-name --force --keep ${text}
       DEPENDS qmorph_command VERBATIM)
     add_custom_target(qmorph_manual ALL DEPENDS ${manual})
-    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+    # tools/run builds the command alone: what it has built can be installed, too.
+    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command OPTIONAL)
   endif()
 endif()
 

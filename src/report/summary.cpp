@@ -127,13 +127,15 @@ std::string even_line(const EvenReport& even) {
   for (const SplitEdge& split : even.splits) ++count[split.curve];
   std::vector<std::string> curves;
   for (const auto& [curve, splits] : count)
-    curves.push_back((curve ? std::to_string(curve) : "none") + (splits > 1 ? fmt::format(" ({})", splits) : ""));
+    if (curve) curves.push_back(std::to_string(curve) + (splits > 1 ? fmt::format(" ({})", splits) : ""));
+  std::string where = "no curve";  // where surfaces meet without one
+  if (!curves.empty()) where = fmt::format("curve{} {}", curves.size() == 1 ? "" : "s", fmt::join(curves, ", "));
+  if (!curves.empty() && count.contains(0)) where += fmt::format(" and on none ({})", count.at(0));
   const std::size_t splits = even.splits.size();
   std::string line =
       splits == 0 ? "--all-quad: no segment had to be split"
-                  : fmt::format("--all-quad: {} segment{} got a node, on curve{} {} ({} region{} had an odd boundary)",
-                                splits, splits == 1 ? "" : "s", curves.size() == 1 ? "" : "s", fmt::join(curves, ", "),
-                                even.odd_regions, even.odd_regions == 1 ? "" : "s");
+                  : fmt::format("--all-quad: {} segment{} got a node, on {} ({} region{} had an odd boundary)", splits,
+                                splits == 1 ? "" : "s", where, even.odd_regions, even.odd_regions == 1 ? "" : "s");
   if (!even.odd_surfaces.empty())
     line += fmt::format("; no way to make surface{} {} even", even.odd_surfaces.size() == 1 ? "" : "s",
                         fmt::join(even.odd_surfaces, ", "));

@@ -16,9 +16,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Of elements that are doubtful an edge does not tell whether it is a crease.
 class Spreading {
  public:
-  Spreading(const Patch& patch, const std::vector<char>& bad, double crease_angle)
+  Spreading(const Patch& patch, const std::vector<char>& doubtful, double crease_angle)
       : patch_(patch),
         sides_(patch.points.size(), patch.triangles, patch.quads, patch.constraints),
         normals_(patch.points, sides_),
@@ -29,7 +30,7 @@ class Spreading {
       if (sides_.node(side) == kNone) continue;
       const Index a = sides_.node(side), b = sides_.target(side);
       neighbours_[a].push_back(b);
-      if (is_held(side, bad, std::cos(crease_angle))) is_free_[a] = is_free_[b] = 0;
+      if (is_held(side, doubtful, std::cos(crease_angle))) is_free_[a] = is_free_[b] = 0;
     }
   }
 
@@ -53,10 +54,10 @@ class Spreading {
 
  private:
   /// Not inside, or along a crease.
-  bool is_held(Index side, const std::vector<char>& bad, double least_cosine) const {
+  bool is_held(Index side, const std::vector<char>& doubtful, double least_cosine) const {
     const Index opposite = sides_.opposite(side);
     if (opposite == kNone) return true;
-    if (bad[side / 4] || bad[opposite / 4]) return false;
+    if (doubtful[side / 4] || doubtful[opposite / 4]) return false;
     return normals_.own(side / 4).dot(normals_.own(opposite / 4)) < least_cosine;
   }
 
@@ -82,14 +83,33 @@ class Spreading {
   std::vector<std::vector<Index>> neighbours_;  ///< by node; of free ones, each once
 };
 
+/// Marks elements that share a node with those that are marked, besides.
+std::vector<char> with_neighbours(const Patch& patch, std::vector<char> marked) {
+  std::vector<char> is_touched(patch.points.size(), 0);
+  const std::size_t triangles = patch.triangles.size();
+  const auto for_each_node = [&](std::size_t element, const auto& look) {
+    if (element < triangles)
+      for (const Index v : patch.triangles[element]) look(v);
+    else
+      for (const Index v : patch.quads[element - triangles]) look(v);
+  };
+  for (std::size_t e = 0; e < marked.size(); ++e)
+    if (marked[e]) for_each_node(e, [&](Index v) { is_touched[v] = 1; });
+  for (std::size_t e = 0; e < marked.size(); ++e) for_each_node(e, [&](Index v) { marked[e] |= is_touched[v]; });
+  return marked;
+}
+
 }  // namespace
 
 std::optional<Patch> put_right(const Patch& patch, double crease_angle) {
   const std::vector<char> bad = bad_elements(patch);
   if (!is_any(bad)) return {};
-  const Spreading spreading(patch, bad, crease_angle);
-  for (const int rings : {0, 1, 3})
-    if (Patch moved = spreading.run(bad, rings); !is_any(bad_elements(moved))) return moved;
+  // Where triangles are coarse, a node that is out of place makes sharp edges between good elements around it, too.
+  for (const std::vector<char>& doubtful : {bad, with_neighbours(patch, bad)}) {
+    const Spreading spreading(patch, doubtful, crease_angle);
+    for (const int rings : {0, 1, 3})
+      if (Patch moved = spreading.run(bad, rings); !is_any(bad_elements(moved))) return moved;
+  }
   return {};
 }
 

@@ -38,6 +38,19 @@ TEST_CASE("messages: a triangle that an odd boundary forces names --all-quad, an
   CHECK(run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "-v", "0"}).err.empty());
 }
 
+TEST_CASE("messages: of many surfaces with a triangle the first ones are named") {
+  const TemporaryDirectory directory;
+  const Grid grid{.n = 3};
+  std::vector<std::string> rows;
+  for (const auto& triangle : grid.triangles())
+    rows.push_back(row("2 2 0 " + std::to_string(rows.size() + 1), triangle));
+  write_file(directory / "in.msh", msh22(grid.nodes(), rows));
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
+  CHECK(result.status == 0);
+  CHECK(mentions(result.err, "18 triangles are left"));
+  CHECK(mentions(result.err, "on surfaces 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, ...; --all-quad"));
+}
+
 TEST_CASE("messages: a concave quad of the input names --cleanup-only") {
   const TemporaryDirectory directory;
   write_file(directory / "in.msh", kConcave);
@@ -111,6 +124,40 @@ TEST_CASE("messages: a format that Gmsh only writes is named") {
   const Result result = run_qmorph({directory / "deck.inp"});
   CHECK(result.status == 2);
   CHECK(mentions(result.err, "does not read .inp files"));
+}
+
+TEST_CASE("messages: files that Gmsh takes for scripts, and kinds of a format that its reader does not know") {
+  const TemporaryDirectory directory;
+  const auto said = [&](const std::string& name, const std::string& text) {
+    write_file(directory / name, text);
+    const Result result = run_qmorph({directory / name, "-o", directory / "out.msh"});
+    CHECK(result.status == 2);
+    CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+    return result.err;
+  };
+  CHECK(mentions(said("in.vtu", "<VTKFile type=\"UnstructuredGrid\">\n"), "does not read .vtu files"));
+  CHECK(mentions(said("in.geo", "Point(1 = {};\n"), "syntax error"));
+  write_file(directory / "options.msh.opt", "garbage (((\n");
+  CHECK(mentions(said("options.msh", kPentagon), "options.msh.opt', line 1: syntax error"));
+  CHECK(mentions(said("in.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"), "it is binary"));
+  CHECK(mentions(said("in.stl", "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0,5 0,0 0,0\n"), "decimal commas"));
+  CHECK(mentions(said("in.msh", "\xEF\xBB\xBF$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"), "byte order mark"));
+  CHECK(mentions(said("in.vtk", "# vtk DataFile Version 5.1\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"),
+                 "it is of VTK 5.1: write it as VTK 4.2"));
+}
+
+TEST_CASE("messages: data that Gmsh does not read from VTK files") {
+  const TemporaryDirectory directory;
+  const std::string mesh =
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+      "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n";
+  write_file(directory / "plain.vtk", mesh);
+  write_file(directory / "data.vtk", mesh + "POINT_DATA 4\nSCALARS t double 1\nLOOKUP_TABLE default\n0 1 2 3\n");
+  for (const std::string name : {"plain", "data"}) {
+    const Result result = run_qmorph({directory / (name + ".vtk"), "-o", directory / "out.msh"});
+    CHECK(result.status == 0);
+    CHECK(mentions(result.err, "warning: data on points and cells is left out") == (name == "data"));
+  }
 }
 
 TEST_CASE("messages: files of a format in which Gmsh finds nothing are no meshes without surfaces") {

@@ -204,6 +204,7 @@ TEST_CASE("--all-quad: surfaces of a file without line elements share the node o
   REQUIRE(outcome.report["all_quad"]["splits"].size() == 1);
   CHECK(outcome.report["all_quad"]["splits"][0]["curve"] == 0);
   CHECK(outcome.report["all_quad"]["splits"][0]["where"] == json{1.0, 0.7, 0.0});
+  CHECK(outcome.err.find("--all-quad: 1 segment got a node, on no curve (2 regions") != std::string::npos);
 }
 
 TEST_CASE("--all-quad: on curves of higher order all nodes stay and the new ones lie between them") {

@@ -121,7 +121,7 @@ TEST_CASE("consumers: a triangle that is left is reported for readers that need 
   write_file(directory / "in.msh", msh22({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {"2 2 1 1 1 2 3"}));
   const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--for", "dealii"});
   CHECK(result.status == 6);
-  CHECK(mentions(result.err, "1 triangle is left, and deal.II takes quads only"));
+  CHECK(mentions(result.err, "1 triangle is left, and deal.II takes quads only; --all-quad, or"));
 }
 
 TEST_CASE("consumers: a deck has plane-stress quads and sets, and no trusses") {

@@ -168,6 +168,41 @@ TEST_CASE("round trip: a partitioned mesh keeps its partitions") {
   CHECK(partitions(in) == partitions(out));
 }
 
+TEST_CASE("round trip: tags of surfaces and curves that are partitioned mean their parts") {
+  const TemporaryDirectory directory;
+  make_msh(directory / "in.msh", 4.1, false, [] {
+    build_two_squares();
+    ::gmsh::model::mesh::partition(3);
+  });
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {directory / "in.msh", "-o", directory / "out.msh"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = run_qmorph(words);
+    CAPTURE(result.err);
+    CHECK(result.status == 0);
+    return read_snapshot(directory / "out.msh");
+  };
+  std::size_t left = 0;
+  for (const auto& entity : run({"--surfaces", "1"}).mesh.entities)
+    if (entity.dim == 2 && entity.element_count()) {
+      const bool is_left = entity.xyz.empty() || entity.xyz[0] < 1;
+      CHECK((entity.polygons(4) != nullptr) == is_left);
+      left += is_left;
+    }
+  CHECK(left > 0);
+
+  const auto outer_lines = [](const Snapshot& snapshot) {  // on the parts of curve 4, where x = 0
+    std::size_t lines = 0;
+    for (const auto& entity : snapshot.mesh.entities)
+      for (const auto& block : entity.blocks)
+        for (std::size_t i = 0; entity.dim == 1 && i + 1 < block.nodes.size(); i += 2)
+          lines += snapshot.mesh.points[snapshot.mesh.rows.find(block.nodes[i])].x() == 0 &&
+                   snapshot.mesh.points[snapshot.mesh.rows.find(block.nodes[i + 1])].x() == 0;
+    return lines;
+  };
+  CHECK(outer_lines(run({"--all-quad", "--keep-curves", "4"})) == outer_lines(read_snapshot(directory / "in.msh")));
+}
+
 TEST_CASE("round trip: a partitioned mesh of MSH 2.2 keeps its partitions") {
   for (const bool binary : {false, true}) {
     CAPTURE(binary);

@@ -224,7 +224,33 @@ TEST_CASE("views: nodes that curves get have data too") {
   CHECK(run_qmorph({directory / "in.msh", "-o", directory / "odd.msh", "--all-quad"}).status == 0);
   const adapter::MeshData data = read_data(directory / "odd.msh");
   check_view(data, kTemperature);
-  check_view(data, kMaterial, false);
+  check_view(data, kMaterial);
+}
+
+TEST_CASE("views: both halves of a line that gets a node have its data, of a higher order, too") {
+  const auto build = [] {  // five segments: one of them gets a node
+    ::gmsh::model::occ::addRectangle(0, 0, 0, 2, 1, 1);
+    ::gmsh::model::occ::synchronize();
+    for (const int curve : {1, 3}) ::gmsh::model::mesh::setTransfiniteCurve(curve, curve == 1 ? 6 : 7);
+    for (const int curve : {2, 4}) ::gmsh::model::mesh::setTransfiniteCurve(curve, 4);
+    ::gmsh::model::mesh::generate(2);
+  };
+  const View square{"square", "ElementNodeData", [](const auto& p, int) { return std::vector{p.x() * p.x()}; }};
+  const View linear{"linear", "ElementNodeData", [](const auto& p, int) { return std::vector{3 * p.x() - p.y()}; }};
+  for (const int from : {1, 2})
+    for (const std::string to : {"1", "2", "3"}) {
+      CAPTURE(from);
+      CAPTURE(to);
+      const TemporaryDirectory directory;
+      const View& at_nodes = from == 2 && to != "1" ? square : linear;
+      make_file_with_views(directory / "in.msh", 4.1, false, {kMaterial, at_nodes}, from, build);
+      const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh", "--all-quad", "-order", to});
+      CHECK(result.status == 0);
+      CHECK(result.err.find("1 segment got a node") != std::string::npos);
+      const adapter::MeshData data = read_data(directory / "out.msh");
+      check_view(data, kMaterial);
+      check_view(data, at_nodes);
+    }
 }
 
 TEST_CASE("views: formats that cannot hold them are reported") {

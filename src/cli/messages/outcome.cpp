@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <ostream>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +19,14 @@
 
 namespace qmorph::cli {
 namespace {
+
+/// Of a list that may have thousands.
+constexpr std::size_t kMostNamed = 10;
+
+std::string name_some(std::span<const int> tags) {
+  return fmt::format("{}{}", fmt::join(tags.first(std::min(kMostNamed, tags.size())), ", "),
+                     tags.size() > kMostNamed ? ", ..." : "");
+}
 
 /// What the caller must know in any case, in one line.
 void print_outcome(const ModelReport& model, const std::string& output, std::ostream& err) {
@@ -47,8 +56,8 @@ void print_triangles(const Request& request, const ModelReport& model, std::ostr
     err << fmt::format(
         "{} triangle{} left where a boundary has an odd number of sides, on surface{} {}; --all-quad "
         "leaves none{}\n",
-        triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", fmt::join(surfaces, ", "),
-        among_quads ? " but where quads of the input enclose them" : "");
+        triangles, triangles == 1 ? " is" : "s are", surfaces.size() == 1 ? "" : "s", name_some(surfaces),
+        among_quads ? " but where quads of the input enclose them; --cleanup-only changes these quads, too" : "");
 }
 
 /// Gmsh may repeat a message for each of a million nodes.
@@ -74,18 +83,14 @@ class SurfaceWarnings {
   }
 
   void print(const SurfaceReport& surface, std::ostream& err) const {
-    constexpr std::size_t kMany = 4, kMostNamed = 10;
+    constexpr std::size_t kMany = 4;
     for (const std::string& warning : surface.warnings) {
       const std::vector<int>& tags = of_kind_.at(kind_of(warning));
       const bool are_many = tags.size() >= kMany;
       if (are_many && tags.front() != surface.tag) continue;
       err << "warning: surface " << surface.tag << ": " << warning;
-      if (are_many) {
-        const std::size_t named = std::min(kMostNamed, tags.size() - 1);
-        err << fmt::format("; the like of {} others: {}{}", tags.size() - 1,
-                           fmt::join(tags.begin() + 1, tags.begin() + 1 + std::ptrdiff_t(named), ", "),
-                           named < tags.size() - 1 ? ", ..." : "");
-      }
+      if (are_many)
+        err << fmt::format("; the like of {} others: {}", tags.size() - 1, name_some(std::span(tags).subspan(1)));
       err << '\n';
     }
   }

@@ -22,6 +22,7 @@
 #include "cli/work/finish_model.hpp"
 #include "cli/work/open_input.hpp"
 #include "cli/work/write_mesh.hpp"
+#include "gmsh/read/dialect.hpp"
 #include "gmsh/volumes/volumes.hpp"
 #include "gmsh/window/window.hpp"
 #include "report/stats.hpp"
@@ -95,6 +96,8 @@ void Conversion::open() {
   call_.begin(cannot_write, fmt::format("cannot write {}: Gmsh crashed", plan_.name));
   adapter::check_format(plan_, call_.names());
   opened_ = open_for_conversion(call_, plan_);
+  if (opened_.views.steps.empty() && adapter::has_vtk_data(request_.input))
+    call_.warn("data on points and cells is left out: Gmsh reads none from VTK files, but $NodeData from a .msh");
   if (!request_.report.empty()) before_ = read_scene();
 }
 

@@ -11,6 +11,7 @@
 
 #include "cli/messages/outcome.hpp"
 #include "cli/process/reading_limits.hpp"
+#include "gmsh/read/dialect.hpp"
 #include "gmsh/read/meshing.hpp"
 #include "gmsh/read/raise.hpp"
 #include "gmsh/session/compat.hpp"
@@ -28,7 +29,7 @@ adapter::OpenedModel open_input(const Call& call, adapter::OpenOptions options) 
   std::vector<std::string> files = options.merged;
   files.push_back(call.request.input);
   if (call.process.slate) limits.emplace(files);
-  call.begin(bad_input, name + " cannot be read: Gmsh crashed");
+  call.begin(bad_input, name + " cannot be read: Gmsh crashed" + adapter::describe_dialect(call.request.input));
   options.when_read = [&] {
     limits.reset();
     call.begin(bad_input, name + " cannot be meshed: Gmsh crashed");

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "gmsh/convert/run.hpp"
 #include "gmsh/convert/stop_watch.hpp"
 #include "gmsh/convert/whole_surface.hpp"
+#include "gmsh/model/chosen.hpp"
 #include "gmsh/model/patches.hpp"
 #include "gmsh/session/session.hpp"
 #include "qmorph/error.hpp"
@@ -23,17 +22,8 @@ using namespace adapter;
 
 /// Indices of the surfaces to look at, by tag.
 std::vector<std::uint32_t> select_surfaces(const ModelMesh& mesh, const std::vector<int>& wanted) {
-  std::vector<int> missing = wanted;
-  std::vector<std::uint32_t> selected;
-  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
-    if (mesh.entities[e].dim != 2) continue;
-    std::erase(missing, mesh.entities[e].tag);
-    const bool asked = wanted.empty() || std::count(wanted.begin(), wanted.end(), mesh.entities[e].tag);
-    if (asked && mesh.entities[e].element_count()) selected.push_back(e);
-  }
-  if (!missing.empty())
-    throw UsageError(fmt::format("the model has no surface {}", missing.front()),
-                     {.kind = ErrorKind::no_such_entity, .subject = surface_tag(missing.front())});
+  std::vector<std::uint32_t> selected = choose_surfaces(mesh, wanted);
+  std::erase_if(selected, [&](std::uint32_t e) { return mesh.entities[e].element_count() == 0; });
   return selected;
 }
 

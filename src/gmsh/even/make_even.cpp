@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cstdint>
 #include <set>
+#include <vector>
 
 #include "gmsh/even/even_links.hpp"
 #include "gmsh/even/split_edges.hpp"
+#include "gmsh/model/chosen.hpp"
 #include "gmsh/model/model_mesh.hpp"
 #include "gmsh/session/compat.hpp"
 #include "gmsh/session/session.hpp"
@@ -59,33 +60,17 @@ bool bounds_volume(const ModelMesh& mesh, const NodeUse& use, const EntityMesh& 
   return false;
 }
 
-ErrorSubject subject(ErrorSubject::Kind kind, int tag) { return {kind, std::size_t(tag)}; }
-
 std::vector<std::uint32_t> find_surfaces(const ModelMesh& mesh, const NodeUse& use, const std::vector<int>& wanted) {
-  std::vector<int> missing = wanted;
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) {
-    if (mesh.entities[e].dim != 2) continue;
-    std::erase(missing, mesh.entities[e].tag);
-    const bool asked = wanted.empty() || std::count(wanted.begin(), wanted.end(), mesh.entities[e].tag);
-    if (asked && !bounds_volume(mesh, use, mesh.entities[e])) found.push_back(e);
-  }
-  if (!missing.empty())
-    throw UsageError(
-        fmt::format("the model has no surface {}", missing.front()),
-        {.kind = ErrorKind::no_such_entity, .subject = subject(ErrorSubject::Kind::surface, missing.front())});
+  std::vector<std::uint32_t> found = choose_surfaces(mesh, wanted);
+  std::erase_if(found, [&](std::uint32_t e) { return bounds_volume(mesh, use, mesh.entities[e]); });
   return found;
 }
 
+/// Tags of the curves to keep, in a partitioned mesh of their parts, too.
 std::set<int> check_curves(const ModelMesh& mesh, const std::vector<int>& keep_curves) {
-  std::set<int> curves;
-  for (const EntityMesh& entity : mesh.entities)
-    if (entity.dim == 1) curves.insert(entity.tag);
-  for (int tag : keep_curves)
-    if (!curves.count(tag))
-      throw UsageError(fmt::format("the model has no curve {}", tag),
-                       {.kind = ErrorKind::no_such_entity, .subject = subject(ErrorSubject::Kind::curve, tag)});
-  return {keep_curves.begin(), keep_curves.end()};
+  std::set<int> curves(keep_curves.begin(), keep_curves.end());
+  for (std::uint32_t e : find_chosen(mesh, 1, keep_curves)) curves.insert(mesh.entities[e].tag);
+  return curves;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <optional>
 #include <regex>
 
+#include "gmsh/read/dialect.hpp"
 #include "gmsh/read/groups.hpp"
 #include "gmsh/read/guest_model.hpp"
 #include "gmsh/read/merge.hpp"
@@ -140,7 +141,8 @@ void check_not_empty(const std::string& path) {
   ::gmsh::view::getTags(views);
   if (entities.empty() && views.empty())
     throw InputError(
-        fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?", path));
+        fmt::format("{} cannot be opened: Gmsh finds nothing in it; is it of the format that its name says?{}", path,
+                    describe_dialect(path)));
 }
 
 /// What Gmsh says. A format that it only writes it takes for a script; words that it does not know are often those of
@@ -149,11 +151,14 @@ std::string why_not_opened(const std::string& path, const StageLog& log) {
   const std::string said = first_errors(log);
   std::string version;
   ::gmsh::option::getString("General.Version", version);
-  if (is_mesh_file(path) && said.find("syntax error") != std::string::npos)
+  // Not one in the file of options beside it.
+  const std::string place = fs::path(path).filename().string() + "', line ";
+  if (!is_script(path) && said.find("syntax error") != std::string::npos && said.find(place) != std::string::npos)
     return fmt::format(
         "Gmsh {} takes it for a script, since it does not read {} files; convert it to .msh, .vtk or .bdf", version,
         fs::path(path).extension().string());
-  return said.find("Unknown ") == std::string::npos ? said : fmt::format("{} (this is Gmsh {})", said, version);
+  if (said.find("Unknown ") != std::string::npos) return fmt::format("{} (this is Gmsh {})", said, version);
+  return said + describe_dialect(path);
 }
 
 /// What -bgm does in Gmsh's own command.

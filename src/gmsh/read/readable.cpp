@@ -24,6 +24,9 @@ constexpr std::array<std::string_view, 33> kMeshExtensions = {
 constexpr std::array<std::string_view, 9> kCadExtensions = {".brep", ".brp", ".iges",    ".igs",    ".step",
                                                             ".stp",  ".x_t", ".xmt_txt", ".xmt_bin"};
 
+constexpr std::array<std::string_view, 8> kScriptExtensions = {"",     ".geo", ".geo_unrolled", ".gmsh",
+                                                               ".opt", ".pos", ".script",       ".txt"};
+
 bool has_extension_of(const std::string& path, const auto& extensions) {
   std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -43,6 +46,8 @@ bool is_binary_script(const std::string& path, std::istream& in) {
 }  // namespace
 
 bool is_mesh_file(const std::string& path) { return has_extension_of(path, kMeshExtensions); }
+
+bool is_script(const std::string& path) { return has_extension_of(path, kScriptExtensions); }
 
 bool is_cad_file(const std::string& path) { return has_extension_of(path, kCadExtensions); }
 

@@ -13,6 +13,9 @@ void check_readable(const std::string& path);
 /// has another name are not.
 bool is_mesh_file(const std::string& path);
 
+/// By its name: a script, as Gmsh writes and calls them, or a name without an extension.
+bool is_script(const std::string& path);
+
 /// By its name: a geometry in one of the exchange formats.
 bool is_cad_file(const std::string& path);
 

@@ -7,6 +7,7 @@
 
 #include "gmsh/session/compat.hpp"
 #include "gmsh/views/element_locator.hpp"
+#include "gmsh/views/line_locator.hpp"
 #include "gmsh/views/views.hpp"
 
 namespace qmorph::adapter {
@@ -20,7 +21,7 @@ using NodeValues = std::optional<std::vector<const double*>>;
 /// Carries one model's data from mesh to mesh. Places are looked up once for all views.
 class Carrier {
  public:
-  explicit Carrier(const ModelMesh& old) : old_(old), mesh_(read_model_mesh()) {
+  explicit Carrier(const ModelMesh& old) : old_(old), lines_(old), mesh_(read_model_mesh()) {
     find_new_nodes();
     find_new_elements();
   }
@@ -28,7 +29,7 @@ class Carrier {
 
  private:
   struct NewElement {
-    const EntityMesh* surface;
+    const EntityMesh* entity;  ///< a curve or a surface
     const ElementBlock* block;
     std::size_t element;
   };
@@ -41,19 +42,22 @@ class Carrier {
   void find_new_elements();
   void find_renumbered();
   std::vector<double> shape_functions(const ElementPlace& place);
-  Values interpolate(const ElementPlace& place, const std::vector<const double*>& at_nodes, int components);
-  NodeValues values_at_nodes(const ElementPlace& place, const ViewStep& step) const;
+  std::vector<double> shape_functions(int type, const Vector3d& local);
+  Values interpolate(const std::vector<double>& functions, const std::vector<const double*>& at_nodes, int components);
+  NodeValues values_at_nodes(const ElementBlock& block, std::size_t element, const ViewStep& step) const;
   void carry_to_nodes(const ViewStep& step, ViewStep& carried);
   void carry_to_elements(const ViewStep& step, ViewStep& carried);
-  std::optional<Values> value_of(const NewElement& element, const ViewStep& step);
+  std::optional<Values> value_on_surface(const NewElement& element, const ViewStep& step);
+  std::optional<Values> value_on_curve(const NewElement& element, const ViewStep& step);
 
   const ModelMesh& old_;
+  const LineLocator lines_;
   const ModelMesh mesh_;
   std::map<int, ElementLocator> locators_;
   std::vector<std::pair<Index, const EntityMesh*>> new_nodes_;  ///< rows of `mesh_`
   std::vector<NewElement> new_elements_;
   std::vector<std::size_t> kept_nodes_, kept_elements_;  ///< tags, in order
-  /// New and old tags of elements of curves and volumes that Gmsh has given another order, and with it another number.
+  /// New and old tags of elements of volumes that Gmsh has given another order, and with it another number.
   std::vector<std::pair<std::size_t, std::size_t>> renumbered_;
   std::map<int, std::vector<Vector3d>> local_corners_;  ///< of element types
 };
@@ -114,9 +118,9 @@ void Carrier::find_new_elements() {
     for (const ElementBlock& block : entity.blocks)
       for (std::size_t e = 0; e < block.tags.size(); ++e) {
         // The first half of a line that got a node has its number.
-        if (is_kept(block, e, entity.dim == 2))
+        if (is_kept(block, e, entity.dim == 1 || entity.dim == 2))
           kept_elements_.push_back(block.tags[e]);
-        else if (entity.dim == 2 && locator(entity.tag))
+        else if (entity.dim == 1 || (entity.dim == 2 && locator(entity.tag)))
           new_elements_.push_back({&entity, &block, e});
       }
   std::sort(kept_elements_.begin(), kept_elements_.end());
@@ -127,13 +131,12 @@ void Carrier::find_renumbered() {
   const auto for_each_element = [](const ModelMesh& mesh, const auto& take) {
     for (const EntityMesh& entity : mesh.entities)
       for (const ElementBlock& block : entity.blocks)
-        for (std::size_t e = 0; entity.dim % 2 == 1 && e < block.tags.size(); ++e) {
+        for (std::size_t e = 0; entity.dim == 3 && e < block.tags.size(); ++e) {
           const auto first = block.nodes.begin() + std::ptrdiff_t(e * block.nodes_per_element);
-          take(std::pair(entity.dim, std::vector<std::size_t>(first, first + std::ptrdiff_t(block.corners))),
-               block.tags[e]);
+          take(std::vector<std::size_t>(first, first + std::ptrdiff_t(block.corners)), block.tags[e]);
         }
   };
-  std::map<std::pair<int, std::vector<std::size_t>>, std::size_t> now;
+  std::map<std::vector<std::size_t>, std::size_t> now;
   for_each_element(mesh_, [&](auto corners, std::size_t tag) {
     if (!std::binary_search(kept_elements_.begin(), kept_elements_.end(), tag)) now.emplace(std::move(corners), tag);
   });
@@ -155,16 +158,19 @@ std::vector<double> Carrier::shape_functions(const ElementPlace& place) {
   }
   Vector3d at = Vector3d::Zero();
   for (int k = 0; k < 3; ++k) at += place.weights[k] * corners[place.corners[static_cast<std::size_t>(k)]];
+  return shape_functions(place.block->type, at);
+}
+
+std::vector<double> Carrier::shape_functions(int type, const Vector3d& local) {
   int components = 0, orientations = 0;
   std::vector<double> functions;
-  ::gmsh::model::mesh::getBasisFunctions(place.block->type, {at.x(), at.y(), at.z()}, "Lagrange", components, functions,
+  ::gmsh::model::mesh::getBasisFunctions(type, {local.x(), local.y(), local.z()}, "Lagrange", components, functions,
                                          orientations);
   return functions;
 }
 
-Carrier::Values Carrier::interpolate(const ElementPlace& place, const std::vector<const double*>& at_nodes,
+Carrier::Values Carrier::interpolate(const std::vector<double>& functions, const std::vector<const double*>& at_nodes,
                                      int components) {
-  const std::vector<double> functions = shape_functions(place);
   Values values(static_cast<std::size_t>(components), 0);
   for (std::size_t k = 0; k < at_nodes.size() && k < functions.size(); ++k)
     for (std::size_t c = 0; c < values.size(); ++c) values[c] += functions[k] * at_nodes[k][c];
@@ -172,14 +178,13 @@ Carrier::Values Carrier::interpolate(const ElementPlace& place, const std::vecto
 }
 
 /// From data on nodes, or from data on the element's nodes.
-NodeValues Carrier::values_at_nodes(const ElementPlace& place, const ViewStep& step) const {
-  const ElementBlock& block = *place.block;
+NodeValues Carrier::values_at_nodes(const ElementBlock& block, std::size_t element, const ViewStep& step) const {
   const std::size_t n = block.nodes_per_element, c = static_cast<std::size_t>(step.components);
   std::vector<const double*> at_nodes;
-  const std::vector<double>* own = step.kind == "NodeData" ? nullptr : step.find(block.tags[place.element]);
+  const std::vector<double>* own = step.kind == "NodeData" ? nullptr : step.find(block.tags[element]);
   if (step.kind != "NodeData" && (!own || own->size() < n * c)) return std::nullopt;
   for (std::size_t k = 0; k < n; ++k) {
-    const std::vector<double>* one = own ? own : step.find(block.nodes[place.element * n + k]);
+    const std::vector<double>* one = own ? own : step.find(block.nodes[element * n + k]);
     if (!one || one->size() < c) return std::nullopt;
     at_nodes.push_back(one->data() + (own ? k * c : 0));
   }
@@ -194,15 +199,15 @@ void Carrier::carry_to_nodes(const ViewStep& step, ViewStep& carried) {
     }
   for (const auto& [row, surface] : new_nodes_) {
     const ElementPlace place = locator(surface->tag)->find(mesh_.points[row]);
-    const NodeValues at_nodes = values_at_nodes(place, step);
+    const NodeValues at_nodes = values_at_nodes(*place.block, place.element, step);
     if (!at_nodes) continue;
     carried.tags.push_back(mesh_.tags[row]);
-    carried.values.push_back(interpolate(place, *at_nodes, step.components));
+    carried.values.push_back(interpolate(shape_functions(place), *at_nodes, step.components));
   }
 }
 
-std::optional<Carrier::Values> Carrier::value_of(const NewElement& element, const ViewStep& step) {
-  const ElementLocator& old = *locator(element.surface->tag);
+std::optional<Carrier::Values> Carrier::value_on_surface(const NewElement& element, const ViewStep& step) {
+  const ElementLocator& old = *locator(element.entity->tag);
   const ElementBlock& block = *element.block;
   const Vector3d middle = centre(element);
   if (step.kind == "ElementData") {
@@ -214,9 +219,30 @@ std::optional<Carrier::Values> Carrier::value_of(const NewElement& element, cons
   for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
     const Vector3d p = point(block.nodes[element.element * block.nodes_per_element + k]);
     const ElementPlace place = old.find(p, middle);
-    const NodeValues at_nodes = values_at_nodes(place, step);
+    const NodeValues at_nodes = values_at_nodes(*place.block, place.element, step);
     if (!at_nodes) return std::nullopt;
-    const Values values = interpolate(place, *at_nodes, step.components);
+    const Values values = interpolate(shape_functions(place), *at_nodes, step.components);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+std::optional<Carrier::Values> Carrier::value_on_curve(const NewElement& element, const ViewStep& step) {
+  const ElementBlock& block = *element.block;
+  const std::size_t* nodes = block.nodes.data() + element.element * block.nodes_per_element;
+  const std::optional<Line> line = lines_.find(element.entity->tag, {nodes[0], nodes[1]}, centre(element));
+  if (!line) return std::nullopt;
+  if (step.kind == "ElementData") {
+    const auto* values = step.find(line->block->tags[line->element]);
+    return values ? std::optional(*values) : std::nullopt;
+  }
+  const NodeValues at_nodes = values_at_nodes(*line->block, line->element, step);
+  if (!at_nodes) return std::nullopt;
+  Values all;
+  for (std::size_t k = 0; k < block.nodes_per_element; ++k) {
+    const double at = lines_.parameter(*line, point(nodes[k]));
+    const std::vector<double> functions = shape_functions(line->block->type, {at, 0, 0});
+    const Values values = interpolate(functions, *at_nodes, step.components);
     all.insert(all.end(), values.begin(), values.end());
   }
   return all;
@@ -234,7 +260,7 @@ void Carrier::carry_to_elements(const ViewStep& step, ViewStep& carried) {
       carried.values.push_back(*values);
     }
   for (const NewElement& element : new_elements_)
-    if (auto values = value_of(element, step)) {
+    if (auto values = element.entity->dim == 1 ? value_on_curve(element, step) : value_on_surface(element, step)) {
       carried.tags.push_back(element.block->tags[element.element]);
       carried.values.push_back(std::move(*values));
     }

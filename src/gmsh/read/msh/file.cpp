@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "gmsh/read/dialect.hpp"
 #include "gmsh/read/msh/check.hpp"
 #include "gmsh/read/msh/numbers.hpp"
 #include "qmorph/error.hpp"
@@ -180,7 +181,8 @@ MshHeader read_msh_header(const std::string& path) {
     }
     break;
   }
-  if (named_msh) throw InputError(fmt::format("{} has no $MeshFormat: it is not a Gmsh mesh", path));
+  if (named_msh)
+    throw InputError(fmt::format("{} has no $MeshFormat: it is not a Gmsh mesh{}", path, describe_dialect(path)));
   return {};
 }
 
