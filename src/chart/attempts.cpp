@@ -86,11 +86,15 @@ RegionWork best_with_or_without_creases(const CurvedRegion& smooth, const Curved
   std::optional<RegionWork> best;
   try {
     best = best_of_attempts(smooth, options, budget, task);
-    if (size > 2 * options.retry_triangles || !has_more_for(budget, size, kTimes)) return std::move(*best);
+    const bool is_poor = Worth(best->mesh, size).least < kRefused;
+    if (size > 2 * options.retry_triangles || !(is_poor || has_more_for(budget, size, kTimes))) return std::move(*best);
   } catch (const SurfaceError&) {  // along the facets' edges elements have a place at least
   }
   try {
-    RegionWork other = best_of_attempts(faceted, options, budget, task);
+    // What failed, or came out poor, may have spent all that was allowed for both.
+    std::vector<Budget> own{Budget(budget.left_for_another())};
+    const SpentInAll spent_in_all(budget, own);
+    RegionWork other = best_of_attempts(faceted, options, own.front(), task);
     if (!best || Worth(other.mesh, size).sum > Worth(best->mesh, size).sum) best = std::move(other);
   } catch (const SurfaceError&) {
     if (!best) throw;
