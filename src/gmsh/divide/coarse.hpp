@@ -11,9 +11,9 @@ namespace qmorph::adapter {
 /// By the geometry.
 bool is_curved(int surface);
 
-/// Which of these surfaces, if they are curved, are that coarse: much of the area is of triangles that stand at far more
-/// than a right angle to a neighbour, or there is another area altogether than the geometry's, where Gmsh knows that, or
-/// no element at all.
+/// Which of these surfaces, if they are curved, are that coarse: much of the area is of triangles that stand at far
+/// more than a right angle to a neighbour, or it is another area altogether than the geometry's, where Gmsh knows that,
+/// or there is no element at all.
 /// \pre within run_logged()
 std::vector<int> find_too_coarse(const std::vector<int>& surfaces);
 
