@@ -9,6 +9,7 @@
 #include "engine/front_variants.hpp"
 #include "engine/worth.hpp"
 #include "qmorph/error.hpp"
+#include "space/improve.hpp"
 
 namespace qmorph::chart {
 namespace {
@@ -84,14 +85,23 @@ RegionWork best_with_or_without_creases(const CurvedRegion& smooth, const Curved
                                         Budget& budget, Task task) {
   const std::size_t size = smooth.region.triangles.size();
   std::optional<RegionWork> best;
+  bool is_turned = false;  // as only what lies over a fold may be
   try {
     best = best_of_attempts(smooth, options, budget, task);
-    if (size > 2 * options.retry_triangles || !has_more_for(budget, size, kTimes)) return std::move(*best);
+    is_turned = space::has_turned(best->mesh, smooth);
+    const bool is_poor = is_turned || Worth(best->mesh, size).least < kRefused;
+    if (size > 2 * options.retry_triangles || !(is_poor || has_more_for(budget, size, kTimes))) return std::move(*best);
   } catch (const SurfaceError&) {  // along the facets' edges elements have a place at least
   }
   try {
-    RegionWork other = best_of_attempts(faceted, options, budget, task);
-    if (!best || Worth(other.mesh, size).sum > Worth(best->mesh, size).sum) best = std::move(other);
+    // What failed, or came out poor, may have spent all that was allowed for both.
+    std::vector<Budget> own{Budget(budget.left_for_another())};
+    const SpentInAll spent_in_all(budget, own);
+    RegionWork other = best_of_attempts(faceted, options, own.front(), task);
+    const bool is_other_turned = best && space::has_turned(other.mesh, smooth);
+    const bool is_better =
+        best && (is_other_turned == is_turned ? Worth(other.mesh, size).sum > Worth(best->mesh, size).sum : is_turned);
+    if (!best || is_better) best = std::move(other);
   } catch (const SurfaceError&) {
     if (!best) throw;
   }

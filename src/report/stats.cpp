@@ -205,6 +205,7 @@ std::string stats_json(const ModelReport& model, const Recorder& recorder, const
   if (facts.division.understood)
     json["curves"] = {{"more_segments", facts.division.more},
                       {"fewer_segments", facts.division.fewer},
+                      {"around_coarse_surfaces", facts.division.coarse_surfaces},
                       {"splits", even_json(facts.mended)["splits"]}};
   if (facts.volumes.volumes)
     json["volumes"] = {{"volumes", facts.volumes.volumes},

@@ -142,6 +142,12 @@ std::string even_line(const EvenReport& even) {
   return line;
 }
 
+std::string named_surfaces(const std::vector<int>& tags) {
+  constexpr std::size_t kMostNamed = 12;
+  return tags.size() > kMostNamed ? counted(tags.size(), "surface")
+                                  : fmt::format("surface{} {}", tags.size() == 1 ? "" : "s", fmt::join(tags, ", "));
+}
+
 std::string division_line(const adapter::DivisionReport& division, const EvenReport& mended) {
   const auto name = [](const std::vector<int>& curves, const char* how) {
     constexpr std::size_t kMostNamed = 12;
@@ -154,8 +160,12 @@ std::string division_line(const adapter::DivisionReport& division, const EvenRep
     if (!part.empty()) parts.push_back(part);
   if (!mended.splits.empty()) parts.push_back(counted(mended.splits.size(), "segment") + " got a node afterwards");
   if (parts.empty()) return {};
-  return fmt::format("curves with other numbers of segments than Gmsh's, for even boundaries and rows that fit: {}",
-                     fmt::join(parts, ", "));
+  std::string line =
+      fmt::format("curves with other numbers of segments than Gmsh's, for even boundaries and rows that fit: {}",
+                  fmt::join(parts, ", "));
+  if (const auto& coarse = division.coarse_surfaces; !coarse.empty())
+    line += fmt::format("; some around {}, too sharply curved for the sizes there", named_surfaces(coarse));
+  return line;
 }
 
 }  // namespace qmorph::report

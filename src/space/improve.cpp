@@ -81,6 +81,13 @@ std::vector<Index> find_turned(chart::SurfaceMesh mesh, const std::vector<chart:
   return turned_faces(view, folds);
 }
 
+bool has_turned(chart::SurfaceMesh mesh, const chart::CurvedRegion& region) {
+  const PartedSurface surface(region);
+  const std::vector<chart::Edge> creases;
+  const std::vector<char> stretched;
+  return !find_poor(MeshOnSurface(mesh, creases, *surface, region.whole(), stretched), 0).empty();
+}
+
 Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases, const chart::CurvedRegion& region,
                const std::vector<char>& stretched, const SmoothingOptions& options) {
   constexpr std::size_t kWorkOfLook = 150;

@@ -27,4 +27,7 @@ Faults improve(chart::SurfaceMesh& mesh, const std::vector<chart::Edge>& creases
 std::vector<Index> find_turned(chart::SurfaceMesh mesh, const std::vector<chart::Edge>& creases,
                                const chart::CurvedRegion& region, const std::vector<char>& stretched);
 
+/// Whether a face is turned over against the region's surface, also where that is folded itself.
+bool has_turned(chart::SurfaceMesh mesh, const chart::CurvedRegion& region);
+
 }  // namespace qmorph::space

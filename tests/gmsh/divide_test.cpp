@@ -439,3 +439,26 @@ TEST_CASE("divide: ends of curves that differ by the tolerance of the geometry d
     ::gmsh::model::mesh::generate(2);
   });
 }
+
+TEST_CASE("divide: a curved surface that is meshed too coarsely to show its shape gets finer curves") {
+  struct Shape {
+    const char *script, *size;
+    double worst;
+  };
+  for (const Shape& shape : {
+           Shape{"Torus(1) = {0, 0, 0, 12, 4};", "4", 0.5},       // Gmsh: no mesh
+           Shape{"Torus(1) = {0, 0, 0, 12, 4};", "6", 0.6},       // one segment around
+           Shape{"Torus(1) = {0, 0, 0, 12, 4, Pi};", "10", 0.5},  // half the area
+           Shape{"Cylinder(1) = {0, 0, 0, 0, 0, 10, 1};", "6", 0.4},
+       }) {
+    CAPTURE(shape.script);
+    CHECK(convert(std::string("SetFactory(\"OpenCASCADE\");\n") + shape.script, {"-clscale", shape.size}).worst >
+          shape.worst);
+  }
+}
+
+TEST_CASE("divide: a coarse tube that shows its shape gets no finer curves") {
+  const Converted tube =
+      convert("SetFactory(\"OpenCASCADE\");\nCylinder(1) = {0, 0, 0, 0, 0, 10, 1};", {"-clscale", "3"});
+  CHECK(segments(tube.snapshot, 1) <= 8);
+}

@@ -56,6 +56,17 @@ struct Refusals {
   }
 };
 
+/// More segments, if the task wants that. A closed curve with fewer than some would fold back.
+void make_finer(parity::CurveWish& wish, const DividedCurve& curve, const DivisionTask& task) {
+  constexpr int kFewAround = 6;
+  const auto times = task.times.find(curve.tag);
+  if (times == task.times.end() || !curve.depends_on_size() || task.kept_curves.count(curve.tag)) return;
+  const bool is_closed = curve.ends[0] == curve.ends[1];
+  const int least = is_closed ? kFewAround : 1;
+  wish.segments = std::max(least, times->second * wish.segments);
+  wish.wish = std::max(double(least), times->second * wish.wish);
+}
+
 IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const Refusals& refused) {
   constexpr int kFew = 4;
   constexpr double kMostFewer = 0.75;
@@ -65,7 +76,8 @@ IntervalProblem pose(const CurveModel& model, const DivisionTask& task, const Re
     parity::CurveWish wish;
     wish.segments = curve.is_spare ? 1 : curve.segments;
     wish.wish = curve.wish();
-    wish.least = wish.segments <= kFew ? wish.segments : std::max(kFew, int(std::ceil(kMostFewer * curve.segments)));
+    make_finer(wish, curve, task);
+    wish.least = wish.segments <= kFew ? wish.segments : std::max(kFew, int(std::ceil(kMostFewer * wish.segments)));
     if (refused.fewer.count(c)) wish.least = wish.segments;
     wish.fixed = !curve.depends_on_size() || task.kept_curves.count(curve.tag) || refused.any.count(c);
     if (const auto given = task.given.find(curve.tag); given != task.given.end()) {

@@ -14,16 +14,18 @@ struct DivisionTask {
   std::set<int> kept_curves;   ///< of which Gmsh's own number stays
   std::set<int> structured{};  ///< transfinite surfaces: their curves' numbers stay
   std::map<int, int> given{};  ///< curves that get this number of segments
+  std::map<int, int> times{};  ///< curves that are to be finer, and how many times as many segments they want
 };
 
 /// By tags, in order.
 struct DivisionReport {
-  bool understood = false;        ///< there is no compound, for one
-  std::vector<int> more, fewer;   ///< curves that got more or fewer segments than Gmsh gives them
-  std::vector<int> fixed;         ///< curves whose number does not depend on the size: transfinite, or of layers
-  std::vector<int> told;          ///< curves of which Gmsh has been told a number, and may forget it
-  std::vector<int> odd_surfaces;  ///< by their curves
-  std::map<int, int> segments;    ///< of each curve
+  bool understood = false;           ///< there is no compound, for one
+  std::vector<int> more, fewer;      ///< curves that got more or fewer segments than Gmsh gives them
+  std::vector<int> fixed;            ///< curves whose number does not depend on the size: transfinite, or of layers
+  std::vector<int> told;             ///< curves of which Gmsh has been told a number, and may forget it
+  std::vector<int> odd_surfaces;     ///< by their curves
+  std::vector<int> coarse_surfaces;  ///< around which curves got more, since their sizes were too large for the surface
+  std::map<int, int> segments;       ///< of each curve
 };
 
 /// Has Gmsh mesh the curves of the current model: with its own sizes and numbers, apart from the smallest change that

@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "gmsh/divide/coarse.hpp"
 #include "gmsh/divide/curves.hpp"
 #include "gmsh/even/even_links.hpp"
 #include "gmsh/read/facing.hpp"
@@ -200,29 +201,28 @@ StageLog generate(const Flags& flags, const DivisionTask* curves, std::optional<
   });
 }
 
+bool has_failed(const StageLog& log) { return !std::all_of(log.errors.begin(), log.errors.end(), is_forgiven); }
+
 /// Gmsh's mesher sometimes fails for one number of segments and not for the next: then the curves that it names keep
 /// the number that Gmsh gives them. It divides others further as it goes: then that becomes their number. As a last
 /// resort, and where curves cannot be divided at all, each is made even by itself.
-StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
-                  DivisionReport& division) {
+StageLog generate_by_plan(DivisionTask curves, const Flags& flags, DivisionReport& division) {
   constexpr int kAttempts = 4;
-  const std::vector<int> surfaces = surfaces_of(task);
-  DivisionTask curves{surfaces, {keep_curves.begin(), keep_curves.end()}, flags.transfinite};
   const auto generate_by = [&](const DivisionTask* by) {
     std::optional<DivisionReport> divided;
     StageLog log = generate(flags, by, divided);
     division = divided.value_or(DivisionReport());
     return std::pair(std::move(log), divided.has_value());
   };
-  if (task.kept_on_geometry || task.compounds) return generate_by(nullptr).first;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const auto [log, is_divided] = generate_by(&curves);
     if (!is_divided) break;
     if (!division.understood) return log;  // each curve has been made even by itself already
     run_logged([&] { forget_division(division); });
-    if (std::all_of(log.errors.begin(), log.errors.end(), is_forgiven)) {
+    if (!has_failed(log)) {
       const std::map<int, int> further = find_divided_further(division);
-      const bool enough = further.empty() || std::none_of(surfaces.begin(), surfaces.end(), has_odd_boundary);
+      const bool enough =
+          further.empty() || std::none_of(curves.surfaces.begin(), curves.surfaces.end(), has_odd_boundary);
       if (enough || attempt + 1 == kAttempts) return log;
       for (const auto& [curve, segments] : further) curves.given[curve] = segments;
       continue;
@@ -233,6 +233,52 @@ StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector
     if (curves.kept_curves.size() == before) break;  // nothing else to try
   }
   return generate_by(nullptr).first;
+}
+
+/// Curved surfaces that Gmsh could not mesh, or of which the triangles are no picture.
+std::vector<int> find_wanting(const std::vector<int>& surfaces, const StageLog& log) {
+  static const std::regex name(R"(surface (\d+))");
+  std::vector<int> wanting;
+  run_logged([&] { wanting = find_too_coarse(surfaces); });
+  for (const std::string& error : log.errors)
+    for (std::sregex_iterator it(error.begin(), error.end(), name), end; it != end; ++it)
+      if (const int tag = std::stoi((*it)[1]); std::count(surfaces.begin(), surfaces.end(), tag) > 0 && is_curved(tag))
+        wanting.push_back(tag);
+  return wanting;
+}
+
+/// Where Gmsh cannot mesh a curved surface, or its triangles are no picture of that, its curves get more segments than
+/// their sizes say.
+StageLog generate(const MeshingTask& task, const Flags& flags, const std::vector<int>& keep_curves,
+                  DivisionReport& division) {
+  if (task.kept_on_geometry || task.compounds) {
+    std::optional<DivisionReport> divided;
+    StageLog log = generate(flags, nullptr, divided);
+    division = divided.value_or(DivisionReport());
+    return log;
+  }
+  constexpr int kRounds = 3;
+  DivisionTask curves{surfaces_of(task), {keep_curves.begin(), keep_curves.end()}, flags.transfinite};
+  std::vector<int> free = task.bare;
+  std::erase_if(free, [&](int surface) { return flags.transfinite.count(surface) > 0; });
+  bool was_meshed = false;
+  std::map<int, int> before;
+  std::set<int> all_wanting;
+  for (int round = 1;; ++round) {
+    StageLog log = generate_by_plan(curves, flags, division);
+    if (has_failed(log) && was_meshed) {
+      curves.times.clear();
+      return generate_by_plan(curves, flags, division);
+    }
+    was_meshed = !has_failed(log);
+    division.coarse_surfaces.assign(all_wanting.begin(), all_wanting.end());
+    const bool is_different = round == 1 || !was_meshed || division.segments != before;
+    if (round == kRounds || !is_different || (was_meshed && !division.understood)) return log;
+    before = division.segments;
+    const std::vector<int> wanting = find_wanting(free, log);
+    if (wanting.empty() || !ask_for_more(wanting, curves.times)) return log;
+    all_wanting.insert(wanting.begin(), wanting.end());
+  }
 }
 
 /// Boundary layers of triangles, for as long as this object lives, where the script wants quads.
