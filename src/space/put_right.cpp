@@ -18,13 +18,15 @@ using Eigen::Vector3d;
 
 class Spreading {
  public:
-  Spreading(const Patch& patch, const std::vector<char>& bad, double crease_angle)
+  Spreading(const Patch& patch, const std::vector<char>& bad, std::size_t kept, double crease_angle)
       : patch_(patch),
         sides_(patch.points.size(), patch.triangles, patch.quads, patch.constraints),
         normals_(patch.points, sides_),
         is_free_(patch.points.size(), 1),
         neighbours_(patch.points.size()) {
     for (Index v : patch.fixed) is_free_[v] = 0;
+    for (std::size_t q = 0; q < kept; ++q)
+      for (Index v : patch.quads[q]) is_free_[v] = 0;
     for (Index side = 0; side < sides_.slots(); ++side) {
       if (sides_.node(side) == kNone) continue;
       const Index a = sides_.node(side), b = sides_.target(side);
@@ -84,10 +86,10 @@ class Spreading {
 
 }  // namespace
 
-std::optional<Patch> put_right(const Patch& patch, double crease_angle) {
+std::optional<Patch> put_right(const Patch& patch, std::size_t kept, double crease_angle) {
   const std::vector<char> bad = bad_elements(patch);
   if (!is_any(bad)) return {};
-  const Spreading spreading(patch, bad, crease_angle);
+  const Spreading spreading(patch, bad, kept, crease_angle);
   for (const int rings : {0, 1, 3})
     if (Patch moved = spreading.run(bad, rings); !is_any(bad_elements(moved))) return moved;
   return {};
