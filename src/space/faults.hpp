@@ -41,8 +41,8 @@ struct Suspect {
 /// Elements that are turned over among their neighbours or lie back over one, but for the first `kept` quads.
 std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after, std::size_t kept);
 
-/// One of the suspects, where the patch itself is not folded: the surface's normals cannot tell where the patch has such
-/// elements itself. Where the `kept` quads are all that the patch has, only over triangles that are turned over
+/// One of the suspects, where the patch itself is not folded: the surface's normals cannot tell where the patch has
+/// such elements itself. Where the `kept` quads are all that the patch has, only over triangles that are turned over
 /// themselves.
 std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept,
                                   std::vector<Suspect> suspects);
