@@ -10,7 +10,6 @@
 
 namespace qmorph {
 
-class Judged;
 namespace space {
 class Result;
 }
@@ -35,14 +34,13 @@ class QMORPH_API FidelityAccumulator {
  public:
   /// Adds a surface, if it is curved. Cost: linear.
   void add(const Patch& before, const QuadMesh& after);
-  /// For those inside the library who have found where the result is.
-  void add(Judged& judged);
   /// Adds a surface, flat or curved. `source` of the mesh may be all kNone; then the cost is n log n.
   void add_any(const Patch& before, const QuadMesh& after);
   void add(const FidelityAccumulator& other);
   Fidelity result() const;
 
  private:
+  friend class Judged;
   struct Values {
     std::vector<float> all;
     double sum = 0, max = 0;

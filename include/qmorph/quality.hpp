@@ -20,7 +20,6 @@
 
 namespace qmorph {
 
-class Judged;
 struct Patch;
 struct QuadMesh;
 class Shapes;
@@ -89,8 +88,6 @@ class QMORPH_API QualityAccumulator {
   /// input's triangles near it, and of the whole element's, and the scaled Jacobian is the least of the corner sines in
   /// space. Where quads of the input are bad themselves, the normals are those of the elements around.
   void add(const Patch& before, const QuadMesh& after);
-  /// For those inside the library who have found where the result is.
-  void add(Judged& judged);
 
   /// Adds the surfaces that another one has collected.
   void add(const QualityAccumulator& other);
@@ -100,6 +97,7 @@ class QMORPH_API QualityAccumulator {
   std::span<const double> scaled_jacobians() const { return scaled_jacobians_; }
 
  private:
+  friend class Judged;
   void add_elements(std::span<const Eigen::Vector3d> points, std::span<const std::array<Index, 3>> triangles,
                     std::span<const std::array<Index, 4>> quads, const Shapes& shapes);
 

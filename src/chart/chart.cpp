@@ -7,10 +7,16 @@
 #include <set>
 #include <utility>
 
+#include "chart/coarse.hpp"
 namespace qmorph::chart {
 namespace {
 
 Eigen::Vector3d in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
+
+Flattening laid_flat(const Piece& piece, const space::Background& surface, int rounds) {
+  if (auto by_few = flatten_by_few(piece, surface)) return std::move(*by_few);
+  return flatten(surface, piece.points.size(), rounds);
+}
 
 std::vector<Index> halves_at(std::size_t points, const std::vector<Chart::Triangle>& triangles) {
   std::vector<Index> half_at(points, kNone);
@@ -26,7 +32,7 @@ Chart::Chart(const Piece& piece, int rounds)
       triangles_(piece.halves),
       barriers_(piece.barriers()),
       surface_(piece.points, piece.halves, barriers_),
-      flattening_(flatten(surface_, piece.points.size(), rounds)),
+      flattening_(laid_flat(piece, surface_, rounds)),
       half_at_(halves_at(piece.points.size(), piece.halves)) {}
 
 Chart::Chart(const std::vector<Eigen::Vector3d>& points, const std::vector<Triangle>& triangles,

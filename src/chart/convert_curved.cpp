@@ -116,28 +116,33 @@ SurfaceWork improve_as_it_is(const Patch& patch, const Options& options, Budget&
 
 }  // namespace
 
-void require_none_turned(const Patch& patch, const QuadMesh& mesh, std::size_t kept) {
-  if (const auto defect = space::find_turned(patch, mesh, kept))
+void require_none_turned(const Patch& patch, const QuadMesh& mesh, std::size_t kept,
+                         std::vector<space::Suspect> suspects) {
+  if (const auto defect = space::find_turned(patch, mesh, kept, std::move(suspects)))
     throw SurfaceError(defect->what +
                            ", and no place was found for its nodes where it is not; mesh the surface anew "
                            "or repair it",
                        {.kind = ErrorKind::bad_element, .place = defect->place});
 }
 
+namespace {
+
+void require_none_turned_in(const Patch& patch, const QuadMesh& mesh, std::size_t kept) {
+  require_none_turned(patch, mesh, kept, space::find_suspects(patch, mesh, kept));
+}
+
+}  // namespace
+
 std::optional<SurfaceWork> work_put_right(const Patch& patch, std::size_t kept, const Options& options,
                                           const CurvedWork& work) {
-  Patch held = patch;
-  for (std::size_t q = 0; q < kept; ++q)
-    held.fixed.insert(held.fixed.end(), patch.quads[q].begin(), patch.quads[q].end());
-  std::optional<Patch> right = space::put_right(held, options.crease_angle);
+  const std::optional<Patch> right = space::put_right(patch, kept, options.crease_angle);
   if (!right) return {};
-  right->fixed = patch.fixed;
   try {
     SurfaceWork result = work(*right);
     QuadMesh& mesh = result.conversion.mesh;
-    require_none_turned(*right, mesh, kept);
+    require_none_turned_in(*right, mesh, kept);
     space::lay_onto(patch, mesh);
-    require_none_turned(patch, mesh, kept);
+    require_none_turned_in(patch, mesh, kept);
     if (!result.record.stages.empty()) result.record.stages.back() = mesh;
     return result;
   } catch (const SurfaceError&) {
@@ -149,7 +154,7 @@ SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& b
   const auto work = [&](const Patch& one) { return improve_as_it_is(one, options, budget); };
   if (auto result = work_put_right(patch, 0, options, work)) return std::move(*result);
   SurfaceWork result = work(patch);
-  require_none_turned(patch, result.conversion.mesh, 0);
+  require_none_turned_in(patch, result.conversion.mesh, 0);
   return result;
 }
 

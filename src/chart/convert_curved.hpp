@@ -2,8 +2,10 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "engine/surface.hpp"
+#include "space/faults.hpp"
 
 namespace qmorph::chart {
 
@@ -21,7 +23,8 @@ using CurvedWork = std::function<SurfaceWork(const Patch& patch)>;
 std::optional<SurfaceWork> work_put_right(const Patch& patch, std::size_t kept, const Options& options,
                                           const CurvedWork& work);
 
-/// \throws SurfaceError for an element of a result that is turned over among its neighbours
-void require_none_turned(const Patch& patch, const QuadMesh& mesh, std::size_t kept);
+/// \throws SurfaceError for one of space::find_suspects() that is turned over among its neighbours
+void require_none_turned(const Patch& patch, const QuadMesh& mesh, std::size_t kept,
+                         std::vector<space::Suspect> suspects);
 
 }  // namespace qmorph::chart

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "chart/flatten.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
-#include <complex>
 #include <limits>
 #include <utility>
 
+#include "chart/flat_shape.hpp"
+#include "chart/relax_flat.hpp"
 #include "chart/turn_back.hpp"
 
 namespace qmorph::chart {
 namespace {
 
-using Complex = std::complex<double>;
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// A triangle is taken to be at least this times as high as long: without height it has no direction.
-constexpr double kLeastHeight = 1e-3;
 /// Rounds end when one lowers the energy by less than this share of it.
 constexpr double kLeastGain = 0.02;
 /// With less energy than this per triangle, which is a thousandth of its lengths, the surface unrolls and a round is
@@ -31,38 +27,8 @@ constexpr double kLeastSine = 1e-4;
 /// Distortions are no larger than the inverse of this.
 constexpr double kFlat = 1e-3;
 
-/// A triangle in a plane of its own: corners at 0, (base, 0) and `tip`.
-struct Shape {
-  double base = 0;
-  Complex tip;
-  Complex corner(int i) const { return i == 0 ? Complex(0) : i == 1 ? Complex(base) : tip; }
-  Complex side(int i) const { return corner((i + 1) % 3) - corner(i); }
-  double area() const { return 0.5 * base * tip.imag(); }
-};
-
-Shape shape_of(const space::Background& surface, Index t) {
-  const Eigen::Vector3d &a = surface.corner(t, 0), &b = surface.corner(t, 1), &c = surface.corner(t, 2);
-  const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm(), longest = std::max({ab, bc, ca});
-  Shape shape;
-  shape.base = std::max(ab, kLeastHeight * longest);
-  const double along = ab > 0 ? (b - a).dot(c - a) / ab : 0;
-  const double height = ab > 0 ? (b - a).cross(c - a).norm() / ab : 0;
-  shape.tip = {along, std::max(height, kLeastHeight * longest)};
-  return shape;
-}
-
-/// How a triangle got to its place: z -> a z + b conj(z).
-struct Map {
-  Complex a, b;
-  double larger() const { return size(a) + size(b); }
-  double smaller() const { return size(a) - size(b); }  ///< negative if it is turned over
-  Complex rotation() const { return std::norm(a) > 0 ? a / size(a) : Complex(1); }
-  /// std::abs() takes care of numbers that are too large or too small to be squared, which takes most of the time.
-  static double size(const Complex& z) { return std::sqrt(std::norm(z)); }
-};
-
 /// By the lengths of its sides.
-Shape shape_of(std::span<const double, 3> sides) {
+Shape shape_with(std::span<const double, 3> sides) {
   const auto [ab, bc, ca] = std::array{sides[0], sides[1], sides[2]};
   const double longest = std::max({ab, bc, ca});
   Shape shape;
@@ -77,21 +43,8 @@ std::vector<Shape> shapes_of(const space::Background& surface, std::span<const d
   std::vector<Shape> shapes;
   shapes.reserve(surface.triangles());
   for (Index t = 0; t < surface.triangles(); ++t)
-    shapes.push_back(lengths.empty() ? shape_of(surface, t) : shape_of(lengths.subspan(3 * t).first<3>()));
+    shapes.push_back(lengths.empty() ? shape_of(surface, t) : shape_with(lengths.subspan(3 * t).first<3>()));
   return shapes;
-}
-
-Map map_of(const Shape& shape, const Complex& p, const Complex& q, const Complex& r) {
-  const Complex along = (q - p) / shape.base;
-  const Complex up = ((r - p) - along * shape.tip.real()) / shape.tip.imag(), across(up.imag(), -up.real());
-  return {0.5 * (along + across), 0.5 * (along - across)};
-}
-
-Complex complex_of(const Vec2& p) { return {p.x(), p.y()}; }
-
-Map map_of(const space::Background& surface, const Shape& shape, Index t, const std::vector<Vec2>& points) {
-  const auto& [a, b, c] = surface.corners(t);
-  return map_of(shape, complex_of(points[a]), complex_of(points[b]), complex_of(points[c]));
 }
 
 /// Whether all sines are larger than kLeastSine.
@@ -100,11 +53,6 @@ bool is_upright(const space::Background& surface, Index t, const std::vector<Vec
   const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   if (cross(b - a, c - a) > 2 * kLeastSine * longest2) return true;  // no need to look closer
   return std::min({corner_sine(a, b, c), corner_sine(b, c, a), corner_sine(c, a, b)}) >= kLeastSine;
-}
-
-/// The usual product: std::complex takes care of numbers that are not finite, too.
-Complex product(const Complex& a, const Complex& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
 class Flattening2D {
@@ -143,18 +91,12 @@ class Flattening2D {
     for (Shape& shape : shapes_) shape.base /= unit_, shape.tip /= unit_;
   }
 
-  /// Cotangent of the corner across side i.
-  static double cotangent(const Shape& shape, int i) {
-    const Complex at = shape.corner((i + 2) % 3), to = shape.corner(i) - at, other = shape.corner((i + 1) % 3) - at;
-    return product(std::conj(to), other).real() / (2 * shape.area());
-  }
-
   void factorise() {
     std::vector<double> weights, diagonal(points_.size(), 0);  // by side and by point
     weights.reserve(3 * shapes_.size()), pulls_.reserve(3 * shapes_.size());
     for (Index t = 0; t < shapes_.size(); ++t)
       for (int i = 0; i < 3; ++i) {
-        const double weight = 0.5 * cotangent(shapes_[t], i);
+        const double weight = 0.5 * shapes_[t].cotangent(i);
         weights.push_back(weight);
         for (Index v : {surface_.corners(t)[i], surface_.corners(t)[(i + 1) % 3]}) diagonal[v] += weight;
         const Complex pull = weight * shapes_[t].side(i);
@@ -307,6 +249,16 @@ Flattening flatten(const space::Background& surface, std::size_t points, int rou
   measure_distortion(surface, shapes, flattening);
   if (flattening.flipped > 0 && turn_back(surface, flattening.points, flattening.work))
     measure_distortion(surface, shapes, flattening);
+  return flattening;
+}
+
+std::optional<Flattening> flatten_from(const space::Background& surface, std::vector<Vec2> start) {
+  const std::vector<Shape> shapes = shapes_of(surface, {});
+  Flattening flattening;
+  flattening.points = std::move(start);
+  relax_flat(surface, shapes, flattening.points);
+  measure_distortion(surface, shapes, flattening);
+  if (flattening.flipped > 0) return {};
   return flattening;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 /// Triangles of a surface in the plane, with the lengths and angles that they have in space as far as that is possible.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,5 +32,9 @@ inline constexpr int kAllRounds = 30, kFewRounds = 4;
 /// \param lengths by side of the surface, to flatten with instead of those in space
 Flattening flatten(const space::Background& surface, std::size_t points, int rounds = kAllRounds,
                    std::span<const double> lengths = {});
+
+/// The same for points that are in place but for what a few edges make among themselves (relax_flat.hpp). Nothing if
+/// triangles are turned over then. Cost: linear.
+std::optional<Flattening> flatten_from(const space::Background& surface, std::vector<Vec2> start);
 
 }  // namespace qmorph::chart

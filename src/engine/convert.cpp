@@ -4,6 +4,7 @@
 #include <exception>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "chart/convert_curved.hpp"
 #include "engine/convert_triangles.hpp"
@@ -20,17 +21,19 @@ SurfaceWork convert_curved_patch(const Patch& patch, const Options& options, Bud
   const auto work = [&](const Patch& one) { return convert_with_layers(one, {}, options, budget); };
   const std::size_t kept = patch.quads.size();
   std::optional<SurfaceWork> as_it_is;
+  std::vector<space::Suspect> suspects;
   std::exception_ptr failure;
   try {
     as_it_is = work(patch);
-    if (!space::has_suspects(patch, as_it_is->conversion.mesh, kept)) return std::move(*as_it_is);
+    suspects = space::find_suspects(patch, as_it_is->conversion.mesh, kept);
+    if (suspects.empty()) return std::move(*as_it_is);
   } catch (const SurfaceError& error) {
     if (error.kind() != ErrorKind::no_valid_mesh) throw;
     failure = std::current_exception();
   }
   if (auto put_right = chart::work_put_right(patch, kept, options, work)) return std::move(*put_right);
   if (failure) std::rethrow_exception(failure);
-  chart::require_none_turned(patch, as_it_is->conversion.mesh, kept);
+  chart::require_none_turned(patch, as_it_is->conversion.mesh, kept, std::move(suspects));
   return std::move(*as_it_is);
 }
 

@@ -100,14 +100,10 @@ void QualityAccumulator::add(std::span<const Vector3d> points, std::span<const s
   add_elements(points, triangles, quads, Shapes({points, triangles, quads}));
 }
 
-void QualityAccumulator::add(const Patch& before, const QuadMesh& after) {
-  Judged judged(before, after);
-  add(judged);
-}
+void QualityAccumulator::add(const Patch& before, const QuadMesh& after) { Judged(before, after).add_to(*this); }
 
-void QualityAccumulator::add(Judged& judged) {
-  const QuadMesh& after = judged.after();
-  add_elements(after.points, after.triangles, after.quads, Shapes(judged));
+void Judged::add_to(QualityAccumulator& figures) {
+  figures.add_elements(after().points, after().triangles, after().quads, Shapes(*this));
 }
 
 void QualityAccumulator::add(const QualityAccumulator& other) {

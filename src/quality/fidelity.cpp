@@ -147,13 +147,10 @@ Spread FidelityAccumulator::Values::spread() const {
   return {sum / double(all.size()), percentile(values, 99), max, where};
 }
 
-void FidelityAccumulator::add(const Patch& before, const QuadMesh& after) {
-  Judged judged(before, after);
-  add(judged);
-}
+void FidelityAccumulator::add(const Patch& before, const QuadMesh& after) { Judged(before, after).add_to(*this); }
 
-void FidelityAccumulator::add(Judged& judged) {
-  if (!judged.plane()) add_on(judged.before(), judged.on_surface());
+void Judged::add_to(FidelityAccumulator& figures) {
+  if (!plane()) figures.add_on(before(), on_surface());
 }
 
 void FidelityAccumulator::add_any(const Patch& before, const QuadMesh& after) {

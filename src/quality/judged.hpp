@@ -9,7 +9,9 @@
 #include "qmorph/certificate.hpp"
 #include "qmorph/check.hpp"
 #include "qmorph/export.hpp"
+#include "qmorph/fidelity.hpp"
 #include "qmorph/patch.hpp"
+#include "qmorph/quality.hpp"
 #include "space/result.hpp"
 
 namespace qmorph {
@@ -25,6 +27,10 @@ class QMORPH_API Judged {
   const std::optional<Eigen::Vector3d>& plane() const { return plane_; }
   /// Where the result is on the surface; found when it is first asked for. \pre the result's elements have nodes
   const space::Result& on_surface();
+
+  /// What the accumulators' own add() does, for those who have this.
+  void add_to(QualityAccumulator& figures);
+  void add_to(FidelityAccumulator& figures);
 
  private:
   const Patch* before_;

@@ -99,24 +99,6 @@ class Neighbourhood {
   MeshNormals normals_;
 };
 
-struct Suspect {
-  Index element;
-  bool has_bad_corner;  ///< else it lies back over a neighbour, as it may where the surface does
-};
-
-/// Among all but the first `kept` quads.
-std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after, std::size_t kept) {
-  const auto constraints = kept_constraints(before, after);
-  const Neighbourhood elements(after.points, after.triangles, after.quads, constraints);
-  std::vector<Suspect> suspects;
-  for (Index e = 0; e < elements.elements(); ++e)
-    if (e >= after.triangles.size() && e < after.triangles.size() + kept)
-      continue;
-    else if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0)
-      suspects.push_back({e, is_bad});
-  return suspects;
-}
-
 /// Calls ask(corners) for an element, a triangle or a quad, as both are numbered together.
 template <class Ask>
 bool with_corners(const QuadMesh& mesh, Index element, const Ask& ask) {
@@ -277,12 +259,20 @@ std::vector<char> unsure_ground(const Patch& patch) {
   return patch.quads.empty() ? std::vector<char>() : on_bad_elements(patch);
 }
 
-bool has_suspects(const Patch& before, const QuadMesh& after, std::size_t kept) {
-  return !find_suspects(before, after, kept).empty();
+std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after, std::size_t kept) {
+  const auto constraints = kept_constraints(before, after);
+  const Neighbourhood elements(after.points, after.triangles, after.quads, constraints);
+  std::vector<Suspect> suspects;
+  for (Index e = 0; e < elements.elements(); ++e)
+    if (e >= after.triangles.size() && e < after.triangles.size() + kept)
+      continue;
+    else if (const bool is_bad = elements.has_bad_corner(e); is_bad || elements.folds(e) > 0)
+      suspects.push_back({e, is_bad});
+  return suspects;
 }
 
-std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept) {
-  std::vector<Suspect> suspects = find_suspects(before, after, kept);
+std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept,
+                                  std::vector<Suspect> suspects) {
   if (suspects.empty()) return {};
   const std::vector<char> unsure = on_bad_elements(before);
   const bool are_triangles = kept == before.quads.size();

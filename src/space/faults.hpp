@@ -32,13 +32,20 @@ std::vector<char> unsure_ground(const Patch& patch);
 template <std::size_t N>
 bool is_on_unsure_ground(const Result& result, Index element, const Corners<N>& p, std::span<const char> unsure);
 
-/// An element that is turned over among its neighbours or lies back over one, where the patch itself is not folded: the
-/// surface's normals cannot tell where the patch has such elements itself. Not one of the first `kept` quads; where these
-/// are all that the patch has, only over triangles that are turned over themselves.
-std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept = 0);
+/// An element of a result that may be turned over.
+struct Suspect {
+  Index element;
+  bool has_bad_corner;  ///< else it lies back over a neighbour, as it may where the surface does
+};
 
-/// Whether there is an element that find_turned() has to look at more closely.
-bool has_suspects(const Patch& before, const QuadMesh& after, std::size_t kept);
+/// Elements that are turned over among their neighbours or lie back over one, but for the first `kept` quads.
+std::vector<Suspect> find_suspects(const Patch& before, const QuadMesh& after, std::size_t kept);
+
+/// One of the suspects, where the patch itself is not folded: the surface's normals cannot tell where the patch has
+/// such elements itself. Where the `kept` quads are all that the patch has, only over triangles that are turned over
+/// themselves.
+std::optional<Defect> find_turned(const Patch& before, const QuadMesh& after, std::size_t kept,
+                                  std::vector<Suspect> suspects);
 
 /// What is wrong with the geometry of that which a curved surface was made into, if anything: corners that are turned
 /// over (not those of the first `kept` quads, nor where the surface itself is folded), nodes beside the surface,

@@ -19,13 +19,15 @@ using Eigen::Vector3d;
 /// Of elements that are doubtful an edge does not tell whether it is a crease.
 class Spreading {
  public:
-  Spreading(const Patch& patch, const std::vector<char>& doubtful, double crease_angle)
+  Spreading(const Patch& patch, const std::vector<char>& doubtful, std::size_t kept, double crease_angle)
       : patch_(patch),
         sides_(patch.points.size(), patch.triangles, patch.quads, patch.constraints),
         normals_(patch.points, sides_),
         is_free_(patch.points.size(), 1),
         neighbours_(patch.points.size()) {
     for (Index v : patch.fixed) is_free_[v] = 0;
+    for (std::size_t q = 0; q < kept; ++q)
+      for (Index v : patch.quads[q]) is_free_[v] = 0;
     for (Index side = 0; side < sides_.slots(); ++side) {
       if (sides_.node(side) == kNone) continue;
       const Index a = sides_.node(side), b = sides_.target(side);
@@ -101,12 +103,12 @@ std::vector<char> with_neighbours(const Patch& patch, std::vector<char> marked) 
 
 }  // namespace
 
-std::optional<Patch> put_right(const Patch& patch, double crease_angle) {
+std::optional<Patch> put_right(const Patch& patch, std::size_t kept, double crease_angle) {
   const std::vector<char> bad = bad_elements(patch);
   if (!is_any(bad)) return {};
   // Where triangles are coarse, a node that is out of place makes sharp edges between good elements around it, too.
   for (const std::vector<char>& doubtful : {bad, with_neighbours(patch, bad)}) {
-    const Spreading spreading(patch, doubtful, crease_angle);
+    const Spreading spreading(patch, doubtful, kept, crease_angle);
     for (const int rings : {0, 1, 3})
       if (Patch moved = spreading.run(bad, rings); !is_any(bad_elements(moved))) return moved;
   }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <functional>
 
+#include "chart/chart.hpp"
+#include "chart/coarse.hpp"
 #include "chart/fixture.hpp"
 
 using namespace qmorph;
@@ -38,8 +40,7 @@ double difference(const Patch& plane, const Flattening& chart) {
   return most;
 }
 
-Patch cap(double angle) {  // of a sphere, as far from the pole
-  const int n = 24;
+Patch cap(double angle, int n = 24) {  // of a sphere, as far from the pole
   return mapped(plate(n, n), [&](double x, double y) {
     const Vec2 p(2 * x / n - 1, 2 * y / n - 1);
     const double most = std::max(std::abs(p.x()), std::abs(p.y())), r = most * angle;
@@ -92,6 +93,26 @@ TEST_CASE("flatten: the more a surface is curved, the more it is distorted, and 
   }
   CHECK(flat(cap(0.9)).distortion < 1.2);
   CHECK(before > 1.3);
+}
+
+TEST_CASE("flatten: a few points of many lay out the others nearly as well as all do at once") {
+  const int n = 40;
+  for (const double angle : {0.3, 0.6, 0.9}) {
+    CAPTURE(angle);
+    const chart::Piece piece = Start(cap(angle, n)).whole();
+    const space::Background surface(piece.points, piece.halves, piece.barriers());
+    const std::optional<Flattening> by_few = chart::flatten_by_few(piece, surface);
+    REQUIRE(by_few);
+    CHECK(by_few->flipped == 0);
+    CHECK(by_few->distortion - 1 < 1.2 * (chart::flatten(surface, piece.points.size()).distortion - 1));
+  }
+  SUBCASE("what unrolls does so, though a few points of it say less") {
+    const double radius = n / 3.0;
+    const chart::Piece piece = Start(mapped(plate(n, n), [&](double x, double y) {
+                                 return Vector3d(radius * std::cos(x / radius), radius * std::sin(x / radius), y);
+                               })).whole();
+    CHECK(chart::Chart(piece).flattening().distortion < 1.001);
+  }
 }
 
 TEST_CASE("flatten: holes do no harm, as long as what surrounds them can lie flat") {

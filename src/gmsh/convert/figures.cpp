@@ -26,8 +26,8 @@ void Figures::add_result(ConvertedSurface& converted, SurfaceReport& report) {
   report.triangles_out = report.quads_out = 0;
   for (Judged& judged : converted.judged) {
     const QuadMesh& result = judged.after();
-    quality.add(judged);
-    fidelity.add(judged);
+    judged.add_to(quality);
+    judged.add_to(fidelity);
     const auto figures = quality.scaled_jacobians().subspan(report.quads_out);
     for (PoorQuad poor : explain_poor_quads(judged, figures, crease_angle_)) {
       poor.quad += Index(report.quads_out);

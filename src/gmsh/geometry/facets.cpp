@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gmsh/geometry/facets.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "gmsh/geometry/cad_surface.hpp"
 #include "space/background.hpp"
@@ -18,6 +20,21 @@ constexpr int kSteps = 4;
 /// Of the angle between the triangles: along the way a normal turns by an eighth of it, if it does so evenly; at a
 /// crease by all of it at once.
 constexpr double kAtOnce = 0.5;
+
+/// No edge can be sharper than `angle` where all normals around each node are within half of it from one of them.
+bool may_be_sharp(const Patch& patch, double angle) {
+  const double least = std::cos(angle / 2);
+  std::vector<Vector3d> first(patch.points.size(), Vector3d::Zero());
+  for (const auto& t : patch.triangles) {
+    const Vector3d &a = patch.points[t[0]], &b = patch.points[t[1]], &c = patch.points[t[2]];
+    const Vector3d normal = (b - a).cross(c - a).normalized();
+    for (const Index v : t) {
+      if (first[v].isZero()) first[v] = normal;
+      if (!(first[v].dot(normal) >= least)) return true;
+    }
+  }
+  return false;
+}
 
 /// Sides of triangles whose neighbour there is at a larger angle, one for each edge.
 std::vector<Index> sharp_sides(const space::Background& triangles, double angle) {
@@ -68,6 +85,7 @@ bool has_only_facets(const ModelMesh& mesh, const SurfaceMesh& surface, double a
   if (!CadSurface::may_be_found(mesh, surface.entity)) return false;
   std::unique_ptr<CadSurface> geometry;
   for (const SurfacePart& part : surface.parts) {
+    if (!may_be_sharp(part.patch, angle)) continue;
     const std::vector<space::Background::Edge> barriers(part.patch.constraints.begin(), part.patch.constraints.end());
     const space::Background triangles(part.patch.points, part.patch.triangles, barriers);
     for (const Index side : sharp_sides(triangles, angle)) {
