@@ -48,8 +48,10 @@ class SlantingCells {
     cells_.push_back(slanting_corners);
   }
 
-  /// Their corners, of all that hang together with poor ones.
+  /// Their corners, of all that hang together with poor ones; of none if these are too few for a column.
   std::vector<Index> nodes() const {
+    constexpr std::size_t kFewest = 4;
+    if (poor_.size() < kFewest) return {};
     std::vector<std::size_t> open = poor_;
     std::vector<bool> is_known(cells_.size(), false);
     std::vector<Index> found;
