@@ -68,33 +68,94 @@ std::optional<SurfaceWork> convert_beside(const layers::Layers& layers, const Pa
   return {};
 }
 
-/// Where two layers end close to each other the front may have room for poor quads only. A few cells there are left to
-/// the front as well, if that makes it better.
-void give_up_narrow_cells(const layers::Layers& layers, const Patch& patch, const std::optional<Plane>& plane,
-                          const Options& options, Budget& budget, std::vector<bool> without, SurfaceWork& work) {
-  constexpr double kMostCells = 0.01, kMuch = 0.02, kLittle = 0.005;
-  const auto meetings_of = [&](const layers::Layers& some, const SurfaceWork& result) {
-    return layers::look_at_meetings(some, patch.quads.size(), result.conversion.mesh);
-  };
-  const layers::Meetings before = meetings_of(layers, work);
-  if (before.narrow_nodes.empty()) return;
-  for (Index v : before.narrow_nodes) without[v] = true;
-  const auto fewer = layers::find_layers(patch, without, space::crease_angle_of(patch, options.crease_angle));
-  if (!fewer || double(fewer->quads) < (1 - kMostCells) * double(layers.quads)) return;
-  Options again = options;
-  if (options.progress) again.progress = [&](std::string_view stage, double) { return options.progress(stage, 1); };
-  std::optional<SurfaceWork> other;
-  try {
-    other = convert_beside(*fewer, patch, plane, again, budget, without);
-  } catch (const SurfaceError&) {  // it was valid with more
-  }
-  if (!other || other->conversion.mesh.triangles.size() > work.conversion.mesh.triangles.size()) return;
-  const layers::Meetings after = meetings_of(*fewer, *other);
-  const bool is_better = after.poor < before.poor || after.least > before.least + kMuch;
-  // The budget may have been spent on the poor ones, and what is left makes the others worse.
+/// Whether there are fewer poor quads, or the worst is much better, and nothing is worse for it: the budget may have
+/// been spent on the poor ones, and what is left makes the others worse.
+bool is_better(const layers::Shapes& after, const layers::Shapes& before) {
+  constexpr double kMuch = 0.02, kLittle = 0.005;
   const bool is_worse = after.poor > before.poor || after.least < before.least || after.mean < before.mean - kLittle;
-  if (is_better && !is_worse) work = std::move(*other);
+  return !is_worse && (after.poor < before.poor || after.least > before.least + kMuch);
 }
+
+/// Whether that is worth what layers lose.
+bool is_far_better(const layers::Shapes& after, const layers::Shapes& before) {
+  constexpr double kLittle = 0.02;
+  return 2 * after.poor <= before.poor && after.least >= before.least && after.mean >= before.mean - kLittle;
+}
+
+/// A result with layers, of which a few cells are left to the front as well if that makes it better.
+class Concessions {
+ public:
+  /// \param without nodes around which nothing is a layer already
+  Concessions(const Patch& patch, const std::optional<Plane>& plane, const Options& options, Budget& budget,
+              std::vector<bool> without, layers::Layers layers, SurfaceWork work)
+      : patch_(patch),
+        plane_(plane),
+        options_(options),
+        budget_(budget),
+        without_(std::move(without)),
+        layers_(std::move(layers)),
+        work_(std::move(work)),
+        meetings_(meetings_of(layers_, work_)) {
+    if (options.progress)
+      options_.progress = [&options](std::string_view stage, double) { return options.progress(stage, 1); };
+  }
+
+  SurfaceWork make() {
+    constexpr double kMostNarrow = 0.01, kMostSlanting = 0.2;  // shares of the cells
+    const double all = double(layers_.quads);
+    // Where two layers end close to each other the front may have room for poor quads only.
+    leave_out(meetings_.narrow_nodes, kMostNarrow * all,
+              [](const layers::Meetings& after, const layers::Meetings& before) {
+                return is_better(after.of_front, before.of_front);
+              });
+    // Cells slant where a layer ends at a curve, or at a sharp corner without a fan.
+    leave_out(meetings_.slanting_nodes, kMostSlanting * all,
+              [](const layers::Meetings& after, const layers::Meetings& before) {
+                return is_far_better(after.of_all, before.of_all);
+              });
+    return std::move(work_);
+  }
+
+ private:
+  layers::Meetings meetings_of(const layers::Layers& layers, const SurfaceWork& work) const {
+    return layers::look_at_meetings(layers, patch_.quads.size(), work.conversion.mesh);
+  }
+
+  /// The cells at the nodes, if they are not more than `most` and pays(meetings after, meetings before).
+  template <class Pays>
+  void leave_out(const std::vector<Index>& nodes, double most, const Pays& pays) {
+    constexpr double kLeastBudget = 0.25;  // of the surface's: with less, what is new would not be finished
+    if (nodes.empty()) return;
+    std::vector<bool> without = without_;
+    for (Index v : nodes) without[v] = true;
+    auto fewer = layers::find_layers(patch_, without, space::crease_angle_of(patch_, options_.crease_angle));
+    if (!fewer || double(fewer->quads) < double(layers_.quads) - most) return;
+    Budget own(std::max(budget_.left(), kLeastBudget * budget_.allowed()));
+    std::optional<SurfaceWork> other;
+    try {
+      std::vector<bool> stuck = without;
+      other = convert_beside(*fewer, patch_, plane_, options_, own, stuck);
+    } catch (const SurfaceError&) {  // it was valid with more
+    }
+    budget_.spend(own.spent());
+    if (!other || other->conversion.mesh.triangles.size() > work_.conversion.mesh.triangles.size()) return;
+    layers::Meetings after = meetings_of(*fewer, *other);
+    if (!pays(after, meetings_)) return;
+    without_ = std::move(without);
+    layers_ = std::move(*fewer);
+    work_ = std::move(*other);
+    meetings_ = std::move(after);
+  }
+
+  const Patch& patch_;
+  const std::optional<Plane>& plane_;
+  Options options_;
+  Budget& budget_;
+  std::vector<bool> without_;
+  layers::Layers layers_;
+  SurfaceWork work_;
+  layers::Meetings meetings_;
+};
 
 }  // namespace
 
@@ -103,7 +164,7 @@ SurfaceWork convert_with_layers(const Patch& patch, const std::optional<Plane>& 
   constexpr int kTries = 2;
   std::vector<bool> stuck(patch.points.size(), false);
   for (int i = 0; options.layers && i < kTries; ++i) {
-    const auto layers = layers::find_layers(patch, stuck, space::crease_angle_of(patch, options.crease_angle));
+    auto layers = layers::find_layers(patch, stuck, space::crease_angle_of(patch, options.crease_angle));
     if (!layers) break;
     if (plane && i == 0) {
       const Surface whole(patch, *plane);
@@ -113,8 +174,7 @@ SurfaceWork convert_with_layers(const Patch& patch, const std::optional<Plane>& 
     }
     auto work = convert_beside(*layers, patch, plane, options, budget, stuck);
     if (!work) continue;
-    give_up_narrow_cells(*layers, patch, plane, options, budget, stuck, *work);
-    return std::move(*work);
+    return Concessions(patch, plane, options, budget, std::move(stuck), std::move(*layers), std::move(*work)).make();
   }
   return convert_triangles(patch, plane, options, budget, nullptr);
 }

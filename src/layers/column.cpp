@@ -19,6 +19,8 @@ constexpr double kNearMisfit = 20 * kDegree;
 /// Cells higher than so many times their length belong to other columns.
 constexpr double kLeastAspect = 0.5;
 
+double length(const Sides& sides, Index c) { return (sides.point(sides.to(c)) - sides.point(sides.from(c))).norm(); }
+
 Vector3d middle(const Sides& sides, Index c) { return (sides.point(sides.from(c)) + sides.point(sides.to(c))) / 2; }
 
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
@@ -104,22 +106,26 @@ std::optional<Cell> best_cell(const Cells& cells, const Column& column) {
     if (sides.is_wall(diagonal) || cells.is_taken(sides.opposite(diagonal) / 3)) continue;
     const Cell cell = make_cell(sides, column.base, diagonal);
     if (!is_convex(cell)) continue;
-    if (!best || misfit(cell, column) < misfit(*best, column)) best = cell;
+    if (!best || misfit(sides, cell, column) < misfit(sides, *best, column)) best = cell;
   }
   return best;
 }
 
-double misfit(const Cell& cell, const Column& column) {
+double misfit(const Sides& sides, const Cell& cell, const Column& column) {
   double worst = 0;
+  const auto is_along_wall = [&](Index lateral) {
+    return sides.is_wall(lateral) && !sides.is_wall(cell.top) && length(sides, lateral) < length(sides, cell.base);
+  };
   for (std::size_t i = 0; i < 2; ++i) {
-    worst = std::max(worst, outside(cell.angles[i], kRight, column.straight[i]));
+    if (!is_along_wall(i == 0 ? cell.left : cell.right))
+      worst = std::max(worst, outside(cell.angles[i], kRight, column.straight[i]));
     worst = std::max(worst, outside(cell.angles[3 - i], kRight, kPi - cell.angles[i]));
   }
   return worst;
 }
 
 bool goes_on(const Sides& sides, const Column& column, const Cell& cell, bool is_beside) {
-  const double off = misfit(cell, column);
+  const double off = misfit(sides, cell, column);
   if (cell.aspect() >= kNearIsotropic)
     return off <= (is_beside ? kMisfitBeside : kMisfit) && differ_by_less(cell.height, column.height, kJump);
   return cell.aspect() >= kLeastAspect && off <= kNearMisfit && turn(sides, column, cell) <= kNearMisfit &&

@@ -31,8 +31,10 @@ void grow(const Sides& sides, Column& column, Index number, const Cell& cell);
 /// Of the two cells that may come next, the one that fits better; nothing if there is none.
 std::optional<Cell> best_cell(const Cells& cells, const Column& column);
 
-/// By how much the worst corner of a cell is off what the column expects, in radians.
-double misfit(const Cell& cell, const Column& column);
+/// By how much the worst corner of a cell is off what the column expects, in radians. Where the column grows along a
+/// wall, as at the curve on which a layer ends, the angle to it is what it is; but not in a single row between walls,
+/// nor where that side is longer than the base.
+double misfit(const Sides& sides, const Cell& cell, const Column& column);
 
 /// True if a cell goes on with the column. One that is not much longer than high could be two triangles of any mesh,
 /// and must look more like the one below. Beside a cell that is taken, less is asked for.

@@ -38,7 +38,7 @@ bool take_row(Cells& cells, Fan& fan, std::size_t row) {
   std::vector<Cell> found;
   for (const Column& column : fan.columns) {
     const auto cell = best_cell(cells, column);
-    if (!cell || misfit(*cell, column) > kMisfitBeside) return false;
+    if (!cell || misfit(sides, *cell, column) > kMisfitBeside) return false;
     if (!found.empty() && sides.opposite(cell->right) != found.back().left) return false;
     found.push_back(*cell);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-/// Where layers and the quads of the front meet.
+/// Where layers and the quads of the front meet, and which cells of layers are poor themselves.
 
 #include <vector>
 
@@ -8,11 +8,18 @@
 
 namespace qmorph::layers {
 
-/// What the front has made beside layers.
+/// Scaled Jacobians of some quads.
+struct Shapes {
+  std::size_t poor = 0;  ///< under 0.3
+  double least = 1, mean = 1;
+};
+
+/// Nodes are those of layers, as rows of `Patch::points`.
 struct Meetings {
-  std::size_t poor = 0;             ///< quads with a scaled Jacobian under 0.3
-  double least = 1, mean = 1;       ///< scaled Jacobian
-  std::vector<Index> narrow_nodes;  ///< of layers, where such quads have a poor corner: rows of `Patch::points`
+  Shapes of_front, of_all;          ///< what the front has made beside layers; that and the layers
+  std::vector<Index> narrow_nodes;  ///< where poor quads of the front have a poor corner
+  std::vector<Index>
+      slanting_nodes;  ///< where cells slant: those that are poor, and others that hang together with them
 };
 
 /// \param given how many quads the patch had before its layers

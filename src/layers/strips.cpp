@@ -250,7 +250,7 @@ class Gap {
       const Column column{.base = bases_[next], .straight = {kRight, kRight}};
       if (cells_.is_taken(column.base / 3)) continue;
       const auto cell = best_cell(cells_, column);
-      if (!cell || misfit(*cell, column) > kMisfit) return false;
+      if (!cell || misfit(sides_, *cell, column) > kMisfit) return false;
       cells_.take(*cell);
       for (Index side : {cell->right, cell->top, cell->left})
         if (!sides_.is_wall(side)) bases_.push_back(sides_.opposite(side));

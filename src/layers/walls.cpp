@@ -28,7 +28,7 @@ class FirstRow {
     std::vector<double> aspect(columns_.size(), 0);
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const auto cell = best_cell(cells_, columns_[i]);
-      if (cell && misfit(*cell, columns_[i]) <= kMisfitBeside) aspect[i] = cell->aspect();
+      if (cell && misfit(sides_, *cell, columns_[i]) <= kMisfitBeside) aspect[i] = cell->aspect();
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Index wall = columns_[i].base;
@@ -65,7 +65,7 @@ class FirstRow {
   bool start(Index i, double least_aspect, double most_misfit) {
     Column& column = columns_[i];
     const auto cell = best_cell(cells_, column);
-    if (!cell || cell->aspect() < least_aspect || misfit(*cell, column) > most_misfit) return false;
+    if (!cell || cell->aspect() < least_aspect || misfit(sides_, *cell, column) > most_misfit) return false;
     const Index wall = column.base;
     grow(sides_, column, cells_.take(*cell), *cell);
     started_.push_back(wall);

@@ -185,27 +185,52 @@ void add_stretched_surface(int tag) {
   gmsh::model::mesh::addElementsByType(tag, 2, triangles, corners);
 }
 
-}  // namespace
-
-TEST_CASE("layers of Gmsh: where those of two walls end close to each other, the front has room for good quads") {
+/// Whether no quad has a scaled Jacobian under 0.3 where the triangles of a geometry are converted.
+bool becomes_good_quads(const std::string& geometry) {
   const TemporaryDirectory directory;
-  write_file(directory / "corner.geo",
-             "Point(1)={0,.7,0,.0449}; Point(2)={0,0,0,.0449}; Point(3)={.5,0,0,.0449}; Point(4)={.5,.7,0,.0449};\n"
-             "Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Curve Loop(1)={1:4}; Plane Surface(1)={1};\n"
-             "Field[1]=BoundaryLayer; Field[1].EdgesList={1,2}; Field[1].NodesList={1,3}; Field[1].hwall_n=.0005;\n"
-             "Field[1].ratio=1.36; Field[1].thickness=.058; Field[1].hfar=.1; Field[1].Quads=0;\n"
-             "BoundaryLayer Field=1;\n");
+  write_file(directory / "in.geo", geometry);
   {
     const RunningGmsh running;
     gmsh::option::setNumber("General.Verbosity", 0);
-    gmsh::open(directory / "corner.geo");
+    gmsh::open(directory / "in.geo");
     gmsh::model::mesh::generate(2);
-    gmsh::write(directory / "corner.msh");
+    gmsh::write(directory / "in.msh");
   }
-  const Result result = run_qmorph({directory / "corner.msh", "-o", directory / "out.msh"});
+  const Result result = run_qmorph({directory / "in.msh", "-o", directory / "out.msh"});
   CAPTURE(result.err);
   CHECK(result.status == 0);
-  CHECK(run_qmorph({directory / "out.msh", "--check", "--min-sj", "0.3"}).status == 0);
+  return run_qmorph({directory / "out.msh", "--check", "--min-sj", "0.3"}).status == 0;
+}
+
+}  // namespace
+
+TEST_CASE("layers of Gmsh: where those of two walls end close to each other, the front has room for good quads") {
+  CHECK(becomes_good_quads(
+      "Point(1)={0,.7,0,.0449}; Point(2)={0,0,0,.0449}; Point(3)={.5,0,0,.0449}; Point(4)={.5,.7,0,.0449};\n"
+      "Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Curve Loop(1)={1:4}; Plane Surface(1)={1};\n"
+      "Field[1]=BoundaryLayer; Field[1].EdgesList={1,2}; Field[1].NodesList={1,3}; Field[1].hwall_n=.0005;\n"
+      "Field[1].ratio=1.36; Field[1].thickness=.058; Field[1].hfar=.1; Field[1].Quads=0;\n"
+      "BoundaryLayer Field=1;\n"));
+}
+
+TEST_CASE("layers of Gmsh: a channel's end may lean, and rows go on to it") {
+  CHECK(becomes_good_quads(
+      "Point(1)={0,0,0,.08}; Point(2)={1,0,0,.08}; Point(3)={1.7,.7,0,.08}; Point(4)={.7,.7,0,.08};\n"
+      "Line(1)={1,2}; Line(2)={2,3}; Line(3)={3,4}; Line(4)={4,1}; Curve Loop(1)={1:4}; Plane Surface(1)={1};\n"
+      "Field[1]=BoundaryLayer; Field[1].EdgesList={1,3}; Field[1].NodesList={1,2,3,4}; Field[1].hwall_n=.002;\n"
+      "Field[1].ratio=1.3; Field[1].thickness=.12; Field[1].hfar=.08; Field[1].Quads=0;\n"
+      "BoundaryLayer Field=1;\n"));
+}
+
+TEST_CASE("layers of Gmsh: cells that lie nearly along the curve on which a layer ends are left to the front") {
+  CHECK(becomes_good_quads(  // half a foil on its line of symmetry
+      "Point(1)={-1,0,0,.2}; Point(2)={0,0,0,.03}; Point(3)={.3,.1,0,.1}; Point(4)={1,0,0,.03};\n"
+      "Point(5)={2,0,0,.2}; Point(6)={2,1,0,.2}; Point(7)={-1,1,0,.2};\n"
+      "Line(1)={1,2}; Spline(2)={2,3,4}; Line(3)={4,5}; Line(4)={5,6}; Line(5)={6,7}; Line(6)={7,1};\n"
+      "Curve Loop(1)={1:6}; Plane Surface(1)={1};\n"
+      "Field[1]=BoundaryLayer; Field[1].EdgesList={2}; Field[1].NodesList={2,4}; Field[1].hwall_n=.001;\n"
+      "Field[1].ratio=1.3; Field[1].thickness=.03; Field[1].hfar=.3; Field[1].Quads=0;\n"
+      "BoundaryLayer Field=1;\n"));
 }
 
 TEST_CASE("layers of Gmsh: --layers=off leaves them to the front, and a warning and --check say so") {

@@ -152,6 +152,30 @@ TEST_CASE("layers: round a sharp corner without a fan, the last cells of both wa
   }
 }
 
+TEST_CASE("layers: where a row ends at another curve, its last cell has the angle between the two, whatever that is") {
+  // 10 rows of 0.003 to 0.015, below triangles: the lateral side of the last column lies on the curve.
+  constexpr Index kCells = 12, kRows = 10;
+  for (const double degrees : {172.0, 150.0, 60.0, 40.0}) {
+    const double lean = 1 / std::tan(degrees * std::numbers::pi / 180);
+    const auto place = [&](Index i, Index j) {
+      const double y = 0.003 * (std::pow(1.2, j) - 1) / 0.2;
+      return Vector3d(0.4 * i - (i == kCells ? lean * y : 0), y, 0);
+    };
+    for (const Diagonals diagonals : {Diagonals::rising, Diagonals::falling}) {
+      Patch patch = grid(kCells, kRows, place, diagonals);
+      const Index top = kRows * (kCells + 1), left = Index(patch.points.size());
+      patch.points.emplace_back(0, 0.6, 0);
+      patch.points.emplace_back(patch.points[left - 1].x(), 0.6, 0);
+      for (Index i = 0; i < kCells / 2; ++i) patch.triangles.push_back({top + i, top + i + 1, left});
+      for (Index i = kCells / 2; i < kCells; ++i) patch.triangles.push_back({top + i, top + i + 1, left + 1});
+      patch.triangles.push_back({top + kCells / 2, left + 1, left});
+      CAPTURE(degrees);
+      CAPTURE(int(diagonals));
+      CHECK(whole_cells(patch, kCells, kRows) == kCells * kRows);
+    }
+  }
+}
+
 TEST_CASE("layers: rows of cells that are too short to begin a layer go on round the nose of a wall") {
   // 2.3 times as long as high at the wall, and a little less in each row.
   constexpr double kHalf = 52 * std::numbers::pi / 180;  // of the wall's angle
