@@ -16,8 +16,9 @@ constexpr int kRings = 2;
 
 class ChangingValences {
  public:
-  ChangingValences(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget)
-      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget) {
+  ChangingValences(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
+                   Refused* refused = nullptr)
+      : mesh_(mesh), score_(mesh), relaxing_(smoothing), budget_(budget), refused_(refused) {
     relaxing_.iterations = 3;
     relaxing_.untangling_sweeps = 8;  // a change that needs more is no improvement
   }
@@ -47,6 +48,7 @@ class ChangingValences {
       if (++tries > kMostTries) return;
       if (!attempt_change(c)) continue;
       ++changes_;
+      if (refused_) refused_->note_change();
       for (Index u : nodes_)
         if (mesh_.is_live_vertex(u)) {
           enqueue(u);
@@ -67,6 +69,7 @@ class ChangingValences {
   Score score_;
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;
+  Refused* const refused_;
   NodeQueue queue_;
   std::vector<Index> nodes_;
   std::size_t changes_ = 0;
@@ -74,10 +77,11 @@ class ChangingValences {
 
 }  // namespace
 
-std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget) {
+std::size_t change_valences(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
+                            Refused* refused) {
   std::vector<Index> nodes(mesh.vertex_slots());
   std::iota(nodes.begin(), nodes.end(), Index(0));
-  return change_valences_near(mesh, smoothing, nodes, budget);
+  return ChangingValences(mesh, smoothing, budget, refused).run(nodes);
 }
 
 std::size_t change_valences_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const std::vector<Index>& nodes,

@@ -12,9 +12,10 @@ namespace qmorph::cleanup {
 
 std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
                      const CavityLimits& limits) {
-  std::size_t changes = replace_cavities(mesh, smoothing, budget, limits);
-  changes += change_valences(mesh, smoothing, budget);
-  if (changes > 0) changes += replace_cavities(mesh, smoothing, budget, limits);
+  Refused refused(mesh);
+  std::size_t changes = replace_cavities(mesh, smoothing, budget, limits, &refused);
+  changes += change_valences(mesh, smoothing, budget, &refused);
+  if (changes > 0) changes += replace_cavities(mesh, smoothing, budget, limits, &refused);
   return changes + straighten_bands(mesh, smoothing, budget);
 }
 

@@ -35,6 +35,17 @@ struct PlaceCost {
   }
 };
 
+/// How badly an angle inside fits a side, and a corner over that.
+struct PlaceMisfit {
+  double side, corner;
+
+  explicit PlaceMisfit(double angle) {
+    const double off_side = angle / std::numbers::pi - 1, off_corner = angle / std::numbers::pi - 0.5;
+    side = off_side * off_side;
+    corner = off_corner * off_corner - side;
+  }
+};
+
 /// What all places cost, and how well their angles fit.
 struct Places {
   double side_cost = 0, side_misfit = 0;           ///< of all places together, as sides
@@ -48,11 +59,11 @@ struct Places {
       const PlaceCost cost(mesh, score, cavity, i);
       double angle = ccw_angle(mesh.vector(outline[i]), -mesh.vector(outline[(i + n - 1) % n]));
       if (angle <= 0) angle += 2 * std::numbers::pi;
-      const double off_side = angle / std::numbers::pi - 1, off_corner = angle / std::numbers::pi - 0.5;
+      const PlaceMisfit misfit(angle);
       side_cost += cost.side;
-      side_misfit += off_side * off_side;
+      side_misfit += misfit.side;
       corner_cost.push_back(cost.corner);
-      corner_misfit.push_back(off_corner * off_corner - off_side * off_side);
+      corner_misfit.push_back(misfit.corner);
     }
   }
 
@@ -64,7 +75,7 @@ class Chooser {
   Chooser(const Places& places, const PairWish& wish, double most_cost)
       : places_(places), wish_(wish), n_(int(places.corner_cost.size())), most_cost_(most_cost) {}
 
-  std::vector<FillingChoice> run() {
+  FillingChoices run() {
     find_likely_corners();
     if (n_ <= kShortOutline) {
       const int half = n_ / 2;
@@ -81,7 +92,8 @@ class Chooser {
     pick(0, 5, cost_of_sides(5));
     with_pair_ = true;
     pick(0, 4, places_.side_cost + kCostOfPair);
-    std::stable_sort(found_.begin(), found_.end(), [](const FillingChoice& a, const FillingChoice& b) {
+    auto& found = found_.best_first;
+    std::stable_sort(found.begin(), found.end(), [](const FillingChoice& a, const FillingChoice& b) {
       return a.cost + a.misfit < b.cost + b.misfit;
     });
     return std::move(found_);
@@ -130,9 +142,12 @@ class Chooser {
     const auto filling = filling_between(corners, n_);
     if (!filling) return;
     const double ratio = quads_of(*filling, n_) / wish_.quads_wanted;
-    if (ratio < wish_.size.fewest || ratio > wish_.size.most) return;
+    if (ratio < wish_.size.fewest || ratio > wish_.size.most) {
+      found_.depends_on_size = true;
+      return;
+    }
     choice.filling = *filling;
-    found_.push_back(choice);
+    found_.best_first.push_back(choice);
   }
 
   void offer_pair(std::span<const int> corners, FillingChoice choice) {
@@ -140,7 +155,7 @@ class Chooser {
     if (!pair) return;
     choice.pair = pair->filling;
     choice.misfit += pair->misfit;
-    found_.push_back(choice);
+    found_.best_first.push_back(choice);
   }
 
   const Places& places_;
@@ -151,7 +166,7 @@ class Chooser {
   std::vector<int> likely_;       ///< places for three and five corners, ascending
   std::vector<double> cheapest_;  ///< [k]: what k of them cost at least
   std::vector<int> picked_;
-  std::vector<FillingChoice> found_;
+  FillingChoices found_;
 };
 
 /// Of those inside: where sizes change, they are there for a reason.
@@ -187,8 +202,22 @@ bool may_have_filling(const kernel::Mesh& mesh, const Score& score, const Cavity
          sides + cheapest(corners, 4) + kCostOfPair <= most_cost;
 }
 
-std::vector<FillingChoice> choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity,
-                                           double most_cost, double quads_wanted, const FillingSize& size) {
+double least_misfit(const kernel::Mesh& mesh, const Score& score) {
+  constexpr std::size_t kMostCorners = 5;
+  double sides = 0;
+  std::vector<double> corners(kMostCorners, 0);  // fewer may fit better
+  for (Index v = 0; v < mesh.vertex_slots(); ++v) {
+    if (!mesh.is_live_vertex(v) || !mesh.is_boundary(v)) continue;
+    const PlaceMisfit misfit(score.inside_angle(v));
+    sides += misfit.side;
+    corners.push_back(misfit.corner);
+  }
+  std::partial_sort(corners.begin(), corners.begin() + kMostCorners, corners.end());
+  return std::accumulate(corners.begin(), corners.begin() + kMostCorners, sides);
+}
+
+FillingChoices choose_fillings(const kernel::Mesh& mesh, const Score& score, const Cavity& cavity, double most_cost,
+                               double quads_wanted, const FillingSize& size) {
   PairWish wish{{}, middle_of_irregular_nodes(mesh, cavity), quads_wanted, size};
   for (Index h : cavity.outline()) wish.outline.push_back(mesh.point(mesh.origin(h)));
   return Chooser(Places(mesh, score, cavity), wish, most_cost).run();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -27,13 +29,14 @@ bool has_chance(const Cavity& cavity, const FillingChoice& choice, int tries) {
   return cavity.faces().size() <= kLargeCavity || (tries == 1 && choice.misfit < kMostMisfit);
 }
 
-/// A region as a whole is dear to fill, and only its best filling was ever accepted: 30 in some 100 models, of which
-/// those of more than 100 quads fitted better than 0.08, those of more than 250 better than 0.00001.
-bool has_chance_as_whole(const Cavity& region, const FillingChoice& choice) {
+/// How well the best filling of a region of so many quads has to fit its outline. A region as a whole is dear to fill,
+/// and only its best filling was ever accepted: 30 in some 100 models, of which those of more than 100 quads fitted
+/// better than 0.08, those of more than 250 better than 0.00001.
+double most_misfit_of_whole(std::size_t quads) {
   constexpr std::size_t kSmall = 100, kLarge = 500;
   constexpr double kMostMisfitOfMiddling = 0.1;
-  const std::size_t size = region.faces().size();
-  return size <= kSmall || choice.misfit < (size <= kLarge ? kMostMisfitOfMiddling : kMostMisfit);
+  if (quads <= kSmall) return std::numeric_limits<double>::infinity();
+  return quads <= kLarge ? kMostMisfitOfMiddling : kMostMisfit;
 }
 
 /// What the mean shape may lose by better valences, and all elements together.
@@ -65,7 +68,7 @@ bool is_better_shape(const Worth& before, const Worth& after) {
 class Replacing {
  public:
   Replacing(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
-            const CavityLimits& limits = {})
+            const CavityLimits& limits = {}, Refused* refused = nullptr)
       : mesh_(mesh),
         score_(mesh),
         size_(mesh),
@@ -73,7 +76,8 @@ class Replacing {
         nearest_(mesh),
         relaxing_(smoothing),
         budget_(budget),
-        limits_(limits) {
+        limits_(limits),
+        refused_(refused) {
     relaxing_.iterations = limits.iterations;
     relaxing_.untangling_sweeps = 8;  // a filling that needs more does not fit
   }
@@ -83,9 +87,14 @@ class Replacing {
     std::size_t most = 4 * mesh_.vertex_slots() + 1000;
     while (!queue_.empty() && most-- > 0 && !budget_.is_spent()) {
       const Index v = queue_.pop();
-      if (is_defect(v) && improve(v, is_good_enough, 1))
+      if (!is_defect(v) || (refused_ && refused_->holds(v, kNearby))) continue;
+      depends_on_size_ = false;
+      if (improve(v, is_good_enough, 1)) {
         for (Index u : nodes_)
           if (mesh_.is_live_vertex(u)) enqueue(u);
+      } else if (refused_ && !depends_on_size_ && !budget_.is_spent()) {
+        refused_->note(v);  // sizes are measured anew before it is asked again
+      }
     }
   }
 
@@ -97,7 +106,8 @@ class Replacing {
     };
     bool defects = false;
     for (Index v = 0; v < mesh_.vertex_slots() && !defects; ++v) defects = is_defect(v);
-    return defects && size_.is_uniform(kUniform) && cavity_.start_with_all() && replace(is_better, 1, Extent::whole);
+    return defects && may_fit_as_whole() && size_.is_uniform(kUniform) && cavity_.start_with_all() &&
+           replace(is_better, 1, Extent::whole);
   }
 
   /// Valences as good as they are may give a poor quad a better shape.
@@ -113,6 +123,18 @@ class Replacing {
   std::size_t changes() const { return changes_; }
 
  private:
+  /// False if no filling fits the outline of the region: the angles there tell that at once, nearly always.
+  bool may_fit_as_whole() const {
+    constexpr double kRounding = 1e-6;
+    std::size_t quads = 0;
+    for (Index f = 0; f < mesh_.face_slots(); ++f) {
+      if (mesh_.is_live_face(f) && !mesh_.is_quad(f)) return false;
+      quads += mesh_.is_live_face(f);
+    }
+    const double most = most_misfit_of_whole(quads);
+    return std::isinf(most) || least_misfit(mesh_, score_) < most + kRounding;
+  }
+
   bool is_defect(Index v) const { return mesh_.is_live_vertex(v) && mesh_.is_free(v) && score_.excess(v) != 0; }
 
   void enqueue(Index v) {
@@ -159,11 +181,14 @@ class Replacing {
     const double size = size_.mean(near);
     // With more passes than usual, more is made up for.
     const GivingUp* const giving_up = limits_.iterations == CavityLimits().iterations ? &kGivingUp : nullptr;
+    const FillingChoices choices =
+        choose_fillings(mesh_, score_, cavity_, cost - gain, size_.quads_wanted(cavity_.faces()), limits_.size);
+    depends_on_size_ = depends_on_size_ || choices.depends_on_size;
     int tries = 0;
-    for (const FillingChoice& choice :
-         choose_fillings(mesh_, score_, cavity_, cost - gain, size_.quads_wanted(cavity_.faces()), limits_.size)) {
+    for (const FillingChoice& choice : choices.best_first) {
       if (++tries > (extent == Extent::whole ? 1 : limits_.most_tries)) return false;
-      if (extent == Extent::whole ? !has_chance_as_whole(cavity_, choice) : !has_chance(cavity_, choice, tries))
+      if (extent == Extent::whole ? choice.misfit >= most_misfit_of_whole(cavity_.faces().size())
+                                  : !has_chance(cavity_, choice, tries))
         return false;
       const auto edit = [&](std::vector<Index>& nodes) {
         const bool filled = choice.pair ? fill(mesh_, cavity_.outline(), cavity_.faces(), *choice.pair, nodes)
@@ -172,6 +197,7 @@ class Replacing {
       };
       if (!attempt(mesh_, relaxing_, kRings, near, nodes_, edit, accept, giving_up)) continue;
       ++changes_;
+      if (refused_) refused_->note_change();
       std::sort(outline.begin(), outline.end());
       for (Index v : nodes_)
         if (!std::binary_search(outline.begin(), outline.end(), v)) size_.set(v, size);
@@ -194,6 +220,9 @@ class Replacing {
 
   static constexpr int kRegular = 4;              ///< edges at a free node
   static constexpr std::size_t kMostLooks = 600;  ///< nodes among which irregular ones are looked for
+  /// Nodes that decide whether to look again: about as many as a large cavity has. With 600 three times as many are
+  /// looked at again, and nothing more is found in half a million quads; with 100 it is not the same any more.
+  static constexpr std::size_t kNearby = 200;
 
   kernel::Mesh& mesh_;
   Score score_;
@@ -204,19 +233,21 @@ class Replacing {
   SmoothingOptions relaxing_;
   const kernel::Budget& budget_;
   const CavityLimits limits_;
+  Refused* const refused_;
   NodeQueue queue_;
   std::vector<Index> nodes_;
-  std::vector<Index> failed_;  ///< by node: how many changes there had been when raise() found nothing for it
+  std::vector<Index> failed_;     ///< by node: how many changes there had been when raise() found nothing for it
+  bool depends_on_size_ = false;  ///< whether improve() passed over fillings for their number of quads
   std::size_t changes_ = 0;
 };
 
 }  // namespace
 
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
-                             const CavityLimits& limits) {
+                             const CavityLimits& limits, Refused* refused) {
   std::vector<Index> nodes(mesh.vertex_slots());
   std::iota(nodes.begin(), nodes.end(), Index(0));
-  Replacing replacing(mesh, smoothing, budget, limits);
+  Replacing replacing(mesh, smoothing, budget, limits, refused);
   replacing.run(nodes);
   if (!budget.is_spent()) replacing.replace_all();
   return replacing.changes();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cleanup/filling_choice.hpp"
+#include "cleanup/refused.hpp"
 #include "kernel/budget.hpp"
 #include "kernel/mesh.hpp"
 #include "qmorph/options.hpp"
@@ -23,8 +24,9 @@ struct CavityLimits {
 /// Grows a disc of quads from each irregular node to others and replaces it by a filling (filling.hpp) whose valences
 /// score better, in a transaction that is kept only if the elements around are good enough afterwards. The outline
 /// stays, so do boundary, fixed nodes and parity. Returns the number of replacements. Cost: linear.
+/// Nodes for which `refused` holds are passed over; what is found and what is not is noted there.
 std::size_t replace_cavities(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget = {},
-                             const CavityLimits& limits = {});
+                             const CavityLimits& limits = {}, Refused* refused = nullptr);
 
 /// The same, but that it begins with these nodes alone, and never replaces the region as a whole.
 std::size_t replace_cavities_near(kernel::Mesh& mesh, const SmoothingOptions& smoothing,

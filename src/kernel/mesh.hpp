@@ -129,6 +129,10 @@ class Mesh {
   /// The half-edge from a to b, or kNone. O(valence).
   HalfEdgeId find(AnyNode a, AnyNode b) const;
 
+  /// For walks that will come to v: the processor fetches it, or an edge there, meanwhile.
+  void prefetch_node(AnyNode v) const { __builtin_prefetch(&vertices_[v]); }
+  void prefetch_edge_at(AnyNode v) const { __builtin_prefetch(half_edges_.data() + vertices_[v].out); }
+
   bool is_live_vertex(AnyNode v) const { return vertices_[v].out != kNone; }
   bool is_live_face(AnyFace f) const { return faces_[f].half_edge != kNone; }
   bool is_live_half_edge(AnyHalfEdge h) const { return half_edges_[h].origin != kNone; }
