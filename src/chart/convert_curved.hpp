@@ -17,8 +17,9 @@ SurfaceWork improve_curved(const Patch& patch, const Options& options, Budget& b
 /// Makes a patch into quads. \throws SurfaceError
 using CurvedWork = std::function<SurfaceWork(const Patch& patch)>;
 
-/// The work on a curved patch with elements that are turned over among their neighbours, as where two nodes have changed
-/// places, once its nodes have been put right. Nothing if there are no such elements, or what comes of it has some.
+/// The work on a curved patch with elements that are turned over among their neighbours, as where two nodes have
+/// changed places, once its nodes have been put right. Nothing if there are no such elements, or what comes of it has
+/// some.
 /// \param kept quads of the patch that stay, and that nodes of do not move: the first ones
 std::optional<SurfaceWork> work_put_right(const Patch& patch, std::size_t kept, const Options& options,
                                           const CurvedWork& work);

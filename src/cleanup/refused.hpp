@@ -18,8 +18,8 @@ class Refused {
   void note_change();
   /// Nothing was found at v.
   void note(Index v);
-  /// Nothing was found at v, and none of the `most` nodes nearest to it has moved or got another edge since. Cost: those
-  /// nodes, and only if nothing was found.
+  /// Nothing was found at v, and none of the `most` nodes nearest to it has moved or got another edge since. Cost:
+  /// those nodes, and only if nothing was found.
   bool holds(Index v, std::size_t most);
 
  private:

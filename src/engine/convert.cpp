@@ -15,8 +15,8 @@
 namespace qmorph {
 namespace {
 
-/// Where triangles of a curved surface are turned over among their neighbours, quads that are good by these very triangles
-/// are so, too. Then, and where no valid quads are found, the nodes of such triangles are put right first.
+/// Where triangles of a curved surface are turned over among their neighbours, quads that are good by these very
+/// triangles are so, too. Then, and where no valid quads are found, the nodes of such triangles are put right first.
 SurfaceWork convert_curved_patch(const Patch& patch, const Options& options, Budget& budget) {
   const auto work = [&](const Patch& one) { return convert_with_layers(one, {}, options, budget); };
   const std::size_t kept = patch.quads.size();
