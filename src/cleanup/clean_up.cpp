@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cleanup/clean_up.hpp"
 
+#include <optional>
+
 #include "cleanup/change_valences.hpp"
 #include "cleanup/replace_cavities.hpp"
 #include "cleanup/straighten_bands.hpp"
@@ -12,10 +14,13 @@ namespace qmorph::cleanup {
 
 std::size_t clean_up(kernel::Mesh& mesh, const SmoothingOptions& smoothing, const kernel::Budget& budget,
                      const CavityLimits& limits) {
-  Refused refused(mesh);
-  std::size_t changes = replace_cavities(mesh, smoothing, budget, limits, &refused);
-  changes += change_valences(mesh, smoothing, budget, &refused);
-  if (changes > 0) changes += replace_cavities(mesh, smoothing, budget, limits, &refused);
+  // In a small mesh another try costs little, and what is found by chance counts.
+  constexpr std::size_t kLarge = 20'000;  // faces
+  std::optional<Refused> large;
+  Refused* const refused = mesh.face_slots() >= kLarge ? &large.emplace(mesh) : nullptr;
+  std::size_t changes = replace_cavities(mesh, smoothing, budget, limits, refused);
+  changes += change_valences(mesh, smoothing, budget, refused);
+  if (changes > 0) changes += replace_cavities(mesh, smoothing, budget, limits, refused);
   return changes + straighten_bands(mesh, smoothing, budget);
 }
 

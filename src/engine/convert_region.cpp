@@ -124,7 +124,7 @@ class RegionConverter {
     }
   }
 
-  /// A net of gaps as rows along them, if they are worth more, or far fewer are poor and the worst is no worse.
+  /// A net of gaps as rows along them, if they are worth more or far fewer are poor, and the worst is no worse.
   bool take_gaps(Attempt& best) {
     if (best.fault || plane_.curved || attempts_.judge(best.mesh).least >= kFair) return false;
     auto mesh = bands::lay_gaps(region_);
@@ -132,9 +132,8 @@ class RegionConverter {
     Attempt laid = attempts_.begin(std::move(*mesh), options_, attempts_.left_for_rows(), Way::without_front);
     attempts_.finish(laid);
     const Worth one = attempts_.judge(laid.mesh), other = attempts_.judge(best.mesh);
-    const bool has_fewer_poor =
-        one.least >= other.least && 2 * count_poor(laid.mesh, kRefused) < count_poor(best.mesh, kRefused);
-    if (laid.fault || !(has_fewer_poor || is_worth_more(one, other))) return false;
+    const bool has_fewer_poor = 2 * count_poor(laid.mesh, kRefused) < count_poor(best.mesh, kRefused);
+    if (laid.fault || one.least < other.least || !(has_fewer_poor || is_worth_more(one, other))) return false;
     best = std::move(laid);
     return true;
   }
