@@ -7,20 +7,17 @@
 #include "bands/find_band.hpp"
 #include "bands/lay_chords.hpp"
 #include "bands/lay_rows.hpp"
+#include "cleanup/poor_shapes.hpp"
 
 namespace qmorph::bands {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// What a quad costs: up to which sine it is poor, the more the poorer; what it lacks of a rectangle; and that there is
-/// one more.
-constexpr double kPoor = 0.6, kPriceOfLean = 0.1, kPriceOfQuad = 0.2;
+/// What a quad costs, besides what it lacks: if it is no rectangle; and that there is one more.
+constexpr double kPriceOfLean = 0.1, kPriceOfQuad = 0.2;
 
-double price(double sine) {
-  const double lack = std::max(0.0, kPoor - sine) / kPoor;
-  return lack * lack + kPriceOfLean * (1 - sine) + kPriceOfQuad;
-}
+double price(double sine) { return cleanup::lack_of(sine) + kPriceOfLean * (1 - sine) + kPriceOfQuad; }
 
 /// `nodes`: the region's, of the first ones of `rows`; of these those under `outer` are on the boundary, and a corner
 /// between three of them stays as it is.

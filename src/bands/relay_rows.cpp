@@ -11,6 +11,7 @@
 #include "bands/find_band.hpp"
 #include "bands/lay_rows.hpp"
 #include "cleanup/cavity.hpp"
+#include "cleanup/poor_shapes.hpp"
 #include "kernel/mark_set.hpp"
 #include "smoothing/smooth.hpp"
 #include "topology/edits.hpp"
@@ -18,9 +19,8 @@
 namespace qmorph::bands {
 namespace {
 
-/// Up to which sine a quad is poor, the more the poorer it is; and what all sines together lose costs so much of one,
-/// and a change has to bring so much, in quads of sine 0.
-constexpr double kLeaning = 0.45, kPoor = 0.6, kPriceOfLoss = 0.15, kLeastGain = 0.1;
+/// Up to which sine a quad leans; and what a change has to bring, in quads of sine 0.
+constexpr double kLeaning = 0.45, kLeastGain = 0.1;
 constexpr int kSweeps = 10, kRingsRelaxed = 1;
 
 /// A row of quads across, with those at its ends.
@@ -202,39 +202,21 @@ class Relaying {
     for (const RowCosts& costs : {kBetterTurns, kFewerTurns})
       if (auto rows = lay_rows(band, points, costs)) {
         double lack = 0;
-        for (Index f = 0; f < rows->face_slots(); ++f) lack += lack_of(*rows, f);
+        for (Index f = 0; f < rows->face_slots(); ++f) lack += cleanup::lack_of(rows->smallest_sine(f));
         mesh_.add_work(rows->work());
         offers.push_back({row.faces, nodes, std::move(*rows), lack});
       }
   }
 
-  /// Of a quad, in quads of sine 0.
-  static double lack_of(const kernel::Mesh& mesh, Index f) {
-    const double lack = std::max(0.0, kPoor - mesh.smallest_sine(f)) / kPoor;
-    return lack * lack;
-  }
-
-  struct Shapes {
-    double poor = 0, sum = 0, worst = 1;
-    std::size_t count = 0;  ///< of faces
-  };
-
-  Shapes shapes_around(const std::vector<Index>& nodes) const {
-    Shapes shapes;
-    for (Index f : topology::faces_around(mesh_, nodes)) {
-      const double sine = mesh_.smallest_sine(f);
-      shapes.poor += lack_of(mesh_, f);
-      shapes.sum += sine;
-      shapes.worst = std::min(shapes.worst, sine);
-      ++shapes.count;
-    }
-    mesh_.add_work(shapes.count);
-    return shapes;
+  cleanup::PoorShapes shapes_around(const std::vector<Index>& nodes) const {
+    const std::vector<Index> faces = topology::faces_around(mesh_, nodes);
+    mesh_.add_work(faces.size());
+    return {mesh_, faces};
   }
 
   bool take(const Offer& offer) {
     if (!cavity_.start_with(offer.faces) || cavity_.outline().size() != offer.nodes.size()) return false;
-    const Shapes before = shapes_around(offer.nodes);
+    const cleanup::PoorShapes before = shapes_around(offer.nodes);
     mesh_.begin();
     mesh_.make_face(cavity_.outline(), cavity_.faces());
     std::vector<Index> nodes = offer.nodes;
@@ -243,12 +225,7 @@ class Relaying {
       topology::spread(mesh_, std::span(nodes).subspan(offer.nodes.size()), kSweeps);
       kept = smoothing::smooth_near(mesh_, relaxing_, nodes, kRingsRelaxed);
     }
-    if (kept) {
-      const Shapes after = shapes_around(nodes);
-      // More elements are no gain.
-      const double loss = std::max(0.0, before.sum / double(before.count) * double(after.count) - after.sum);
-      kept = before.poor - after.poor - kPriceOfLoss * loss >= kLeastGain && after.worst >= before.worst;
-    }
+    kept = kept && shapes_around(nodes).is_worth(before, kLeastGain);
     kept ? mesh_.commit() : mesh_.rollback();
     return kept;
   }

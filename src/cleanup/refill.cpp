@@ -7,17 +7,17 @@
 
 #include "cleanup/attempt.hpp"
 #include "cleanup/cavity.hpp"
+#include "cleanup/poor_shapes.hpp"
 #include "cleanup/quadrangulations.hpp"
 #include "kernel/sort_unique.hpp"
 
 namespace qmorph::cleanup {
 namespace {
 
-/// Sines of the quads that something is tried for, and up to which a quad counts as poor, the more the poorer it is.
-constexpr double kTried = 0.45, kPoor = 0.6;
-/// What one of the valence score costs, and what all sines together lose, and what a change has to bring: in quads of
-/// sine 0.
-constexpr double kPriceOfScore = 0.03, kPriceOfLoss = 0.15, kLeastGain = 0.02;
+/// Sines of the quads that something is tried for.
+constexpr double kTried = 0.45;
+/// What one of the valence score costs, and what a change has to bring: in quads of sine 0.
+constexpr double kPriceOfScore = 0.03, kLeastGain = 0.02;
 /// Rings of quads around the poor one that are replaced with it, first few, then more; without a ring those that share
 /// a side with it.
 constexpr std::array kRingsReplaced{0, 1, 2};
@@ -122,28 +122,15 @@ class Refilling {
     return false;
   }
 
-  struct Shapes {
-    double poor = 0, sum = 0, worst = 1;
-    std::size_t count = 0;  ///< of faces
-  };
-
-  Shapes shapes_of(const std::vector<Index>& faces) const {
-    Shapes shapes;
-    shapes.count = faces.size();
+  PoorShapes shapes_of(const std::vector<Index>& faces) const {
     mesh_.add_work(faces.size());
-    for (Index f : faces) {
-      const double sine = mesh_.smallest_sine(f), lack = std::max(0.0, kPoor - sine) / kPoor;
-      shapes.poor += lack * lack;
-      shapes.sum += sine;
-      shapes.worst = std::min(shapes.worst, sine);
-    }
-    return shapes;
+    return {mesh_, faces};
   }
 
   bool try_filling(const Window& window, const Quadrangulation& quadrangulation, double least_gain) {
     std::vector<Index> nodes = window.inner, fresh;
     for (Index h : window.outline) nodes.push_back(mesh_.origin(h));
-    const Shapes before = shapes_of(topology::faces_around(mesh_, nodes));
+    const PoorShapes before = shapes_of(topology::faces_around(mesh_, nodes));
     nodes.erase(nodes.begin(), nodes.begin() + std::ptrdiff_t(window.inner.size()));
     mesh_.begin();
     bool kept = fill(mesh_, window.outline, window.faces, quadrangulation, fresh);
@@ -153,12 +140,7 @@ class Refilling {
       topology::remove_doublets(mesh_, nodes);
       kept = smoothing::smooth_near(mesh_, relaxing_, nodes, kRingsRelaxed);
     }
-    if (kept) {
-      const Shapes after = shapes_of(topology::faces_around(mesh_, nodes));
-      // Fewer elements are no loss, nor more a gain.
-      const double loss = std::max(0.0, before.sum / double(before.count) * double(after.count) - after.sum);
-      kept = before.poor - after.poor - kPriceOfLoss * loss >= least_gain && after.worst >= before.worst;
-    }
+    kept = kept && shapes_of(topology::faces_around(mesh_, nodes)).is_worth(before, least_gain);
     kept ? mesh_.commit() : mesh_.rollback();
     return kept;
   }

@@ -23,8 +23,6 @@ Corner corner_at(const Sides& sides, Index c) {
   return {sides.point(sides.to(c)) - p, sides.point(sides.apex(c)) - p};
 }
 
-double length_of(const Sides& sides, Index c) { return (sides.point(sides.to(c)) - sides.point(sides.from(c))).norm(); }
-
 }  // namespace
 
 bool is_convex(const Cell& cell) {
@@ -59,7 +57,7 @@ Cell make_cell(const Sides& sides, Index base, Index diagonal) {
   set_angle(sides.apex(diagonal), corner_at(sides, Sides::previous(diagonal)).angle());
   set_angle(sides.apex(across), corner_at(sides, Sides::previous(across)).angle());
   const double area = (corner_at(sides, base).twice_area() + corner_at(sides, across).twice_area()) / 2;
-  cell.length = (length_of(sides, base) + length_of(sides, cell.top)) / 2;
+  cell.length = (sides.length(base) + sides.length(cell.top)) / 2;
   cell.height = area / cell.length;
   return cell;
 }

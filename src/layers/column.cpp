@@ -19,8 +19,6 @@ constexpr double kNearMisfit = 20 * kDegree;
 /// Cells higher than so many times their length belong to other columns.
 constexpr double kLeastAspect = 0.5;
 
-double length(const Sides& sides, Index c) { return (sides.point(sides.to(c)) - sides.point(sides.from(c))).norm(); }
-
 Vector3d middle(const Sides& sides, Index c) { return (sides.point(sides.from(c)) + sides.point(sides.to(c))) / 2; }
 
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
@@ -114,7 +112,7 @@ std::optional<Cell> best_cell(const Cells& cells, const Column& column) {
 double misfit(const Sides& sides, const Cell& cell, const Column& column) {
   double worst = 0;
   const auto is_along_wall = [&](Index lateral) {
-    return sides.is_wall(lateral) && !sides.is_wall(cell.top) && length(sides, lateral) < length(sides, cell.base);
+    return sides.is_wall(lateral) && !sides.is_wall(cell.top) && sides.length(lateral) < sides.length(cell.base);
   };
   for (std::size_t i = 0; i < 2; ++i) {
     if (!is_along_wall(i == 0 ? cell.left : cell.right))

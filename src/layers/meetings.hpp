@@ -18,8 +18,8 @@ struct Shapes {
 struct Meetings {
   Shapes of_front, of_all;          ///< what the front has made beside layers; that and the layers
   std::vector<Index> narrow_nodes;  ///< where poor quads of the front have a poor corner
-  std::vector<Index>
-      slanting_nodes;  ///< where cells slant: those that are poor, and others that hang together with them
+  /// Where cells slant: those that are poor, and others that hang together with them.
+  std::vector<Index> slanting_nodes;
 };
 
 /// \param given how many quads the patch had before its layers

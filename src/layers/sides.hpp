@@ -25,6 +25,7 @@ class Sides {
   /// The corner across.
   Index apex(Index c) const { return from(previous(c)); }
   const Eigen::Vector3d& point(Index node) const { return patch_.points[node]; }
+  double length(Index c) const { return (point(to(c)) - point(from(c))).norm(); }
   /// The same edge's side in the other triangle. kNone for a wall: the boundary, a constraint, a quad that is kept, and
   /// any edge that more than two triangles have.
   Index opposite(Index c) const { return opposite_[c]; }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bands/lay_chords.hpp"
+#include "bands/least_of.hpp"
 #include "engine/regions.hpp"
 #include "kernel/fixture.hpp"
 #include "qmorph/convert.hpp"
@@ -92,15 +93,6 @@ double price_of(const kernel::Mesh& mesh) {
   for (Index f = 0; f < mesh.face_slots(); ++f)
     if (mesh.is_live_face(f)) sum += mesh.is_quad(f) ? 1 / mesh.smallest_sine(f) : 1;
   return sum;
-}
-
-double least_of(const QuadMesh& mesh) {
-  double least = 1;
-  for (const auto& q : mesh.quads)
-    for (std::size_t i = 0; i < 4; ++i)
-      least = std::min(least, corner_sine(mesh.points[q[i]].head<2>(), mesh.points[q[(i + 1) % 4]].head<2>(),
-                                          mesh.points[q[(i + 3) % 4]].head<2>()));
-  return least;
 }
 
 }  // namespace

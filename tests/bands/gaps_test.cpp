@@ -7,6 +7,7 @@
 
 #include "bands/gap_net.hpp"
 #include "bands/lay_gaps.hpp"
+#include "bands/least_of.hpp"
 #include "engine/regions.hpp"
 #include "geometry/predicates.hpp"
 #include "kernel/fixture.hpp"
@@ -53,15 +54,6 @@ std::vector<Vec2> flat(const Patch& patch) {
   std::vector<Vec2> points;
   for (const auto& p : patch.points) points.push_back(p.head<2>());
   return points;
-}
-
-double least_of(const QuadMesh& mesh) {
-  double least = 1;
-  for (const auto& q : mesh.quads) {
-    const auto p = [&](std::size_t i) -> Vec2 { return mesh.points[q[i]].head<2>(); };
-    least = std::min(least, smallest_corner_sine(p(0), p(1), p(2), p(3)));
-  }
-  return least;
 }
 
 }  // namespace

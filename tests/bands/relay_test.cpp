@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bands/least_of.hpp"
 #include "bands/relay_rows.hpp"
 #include "geometry/predicates.hpp"
 #include "kernel/fixture.hpp"
@@ -67,15 +68,6 @@ kernel::Mesh leaning(const Junctions& gaps) {
     quads.push_back({gaps.upper(i), gaps.lower(i + 1), gaps.lower(i + 2), gaps.upper(i + 1)});
   quads.push_back({gaps.upper(gaps.edges - 1), gaps.lower(gaps.edges), gaps.apex[1], gaps.upper(gaps.edges)});
   return {gaps.points, quads, {}};
-}
-
-double least_of(const QuadMesh& mesh) {
-  double least = 1;
-  for (const auto& q : mesh.quads) {
-    const auto p = [&](std::size_t i) -> Vec2 { return mesh.points[q[i]].head<2>(); };
-    least = std::min(least, smallest_corner_sine(p(0), p(1), p(2), p(3)));
-  }
-  return least;
 }
 
 /// All gaps and junctions in triangles.

@@ -222,11 +222,10 @@ void ConsumerMeshBuilder::complain_of_elements() {
   const Census census = count_elements();
   const auto say = [&](const std::string& what) { result_.complaints.push_back(what); };
   if (census.triangles && consumer_.only_quads)
-    say(
-        fmt::format("{} triangle{} left, and {} takes quads only; --all-quad, or an even number of sides around each "
-                    "surface, leaves "
-                    "none",
-                    census.triangles, census.triangles == 1 ? " is" : "s are", consumer_.title));
+    say(fmt::format(
+        "{} triangle{} left, and {} takes quads only; --all-quad, or an even number of sides around each surface, "
+        "leaves none",
+        census.triangles, census.triangles == 1 ? " is" : "s are", consumer_.title));
   if (!census.volumes && consumer_.needs_volumes)
     say(fmt::format(
         "there are no cells of dimension 3, and {} reads no others; extrude the quads by one layer, or use -3",
